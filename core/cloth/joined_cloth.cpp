@@ -344,6 +344,7 @@ Surface JoinedCloth::surface(std::span<const int> per_cell) const {
     appendRows(s.W, point_[i], all.W);
     append(all.area_m2, s.area_m2);
     for (const auto& [a, b, c] : s.triangles) all.triangles.push_back({first + a, first + b, first + c});
+    for (const auto& [a, b] : s.twins) all.twins.push_back({first + a, first + b});
     for (int p : s.triangle_patch) all.triangle_patch.push_back(patch_[i] + p);
     append(all.triangle_cell, s.triangle_cell);
     for (int p : s.patch) all.patch.push_back(patch_[i] + p);

@@ -31,6 +31,8 @@ struct Surface {
   /// Of patches that are trimmed or have no grid: the samples on each of their sides (u0, u1, v0, v1 first), ascending
   /// in the parameter; empty of others.
   std::vector<std::vector<std::vector<int>>> edge_samples;
+  /// Pairs of samples that lie on or beside each other across a sewn seam (core/cloth/patches/sewn_twins.hpp).
+  std::vector<std::array<int, 2>> twins;
 
   int size() const { return static_cast<int>(area_m2.size()); }
 };

@@ -23,7 +23,8 @@ Lists invert(int lists, int count, Owners&& owners) {
 
 }  // namespace
 
-ContactMesh contactMesh(int vertex_count, std::span<const std::array<int, 3>> triangles) {
+ContactMesh contactMesh(int vertex_count, std::span<const std::array<int, 3>> triangles,
+                        std::span<const std::array<int, 2>> twins) {
   ContactMesh m;
   m.vertex_count = vertex_count;
   m.triangles.assign(triangles.begin(), triangles.end());
@@ -46,6 +47,18 @@ ContactMesh contactMesh(int vertex_count, std::span<const std::array<int, 3>> tr
   m.edge_faces = invert(edges, faces, [&](int t) { return m.face_edges[t]; });
   m.vertex_faces = invert(vertex_count, faces, [&](int t) { return m.triangles[t]; });
   m.vertex_edges = invert(vertex_count, edges, [&](int e) { return m.edges[e]; });
+  if (twins.empty()) return m;
+  std::vector<std::vector<int>> of_vertex(static_cast<std::size_t>(vertex_count));
+  for (const auto& [v, w] : twins) {
+    assert(v != w && 0 <= std::min(v, w) && std::max(v, w) < vertex_count);
+    of_vertex[static_cast<std::size_t>(v)].push_back(w);
+    of_vertex[static_cast<std::size_t>(w)].push_back(v);
+  }
+  for (std::vector<int>& list : of_vertex) {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    m.twins.add(list);
+  }
   return m;
 }
 

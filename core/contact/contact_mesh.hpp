@@ -1,6 +1,7 @@
 #pragma once
 /// Triangles that may touch each other: who is whose neighbour, with one number for each edge.
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -29,11 +30,28 @@ struct ContactMesh {
   std::vector<std::array<int, 2>> edges;       ///< v < w, in lexicographic order
   std::vector<std::array<int, 3>> face_edges;  ///< edge k runs from corner k to corner k + 1 or back
   Lists edge_faces, vertex_faces, vertex_edges;
+  Lists twins;  ///< of each vertex those that lie on it or beside it across a sewn seam; no lists where there is none
+
+  /// Whether two primitives hang together: by a vertex of both, or by twins. What hangs together does not touch or
+  /// cross.
+  template <std::size_t A, std::size_t B>
+  bool hangTogether(const std::array<int, A>& a, const std::array<int, B>& b) const {
+    for (int v : a)
+      for (int w : b)
+        if (v == w || areTwins(v, w)) return true;
+    return false;
+  }
+  bool areTwins(int v, int w) const {
+    if (twins.size() == 0) return false;
+    const std::span<const int> of_v = twins[v];
+    return std::find(of_v.begin(), of_v.end(), w) != of_v.end();
+  }
 
   bool border(int edge) const { return edge_faces[edge].size() == 1; }
 };
 
-/// The corners of a triangle are three different vertices below vertex_count.
-ContactMesh contactMesh(int vertex_count, std::span<const std::array<int, 3>> triangles);
+/// The corners of a triangle are three different vertices below vertex_count. `twins`: pairs of two different vertices.
+ContactMesh contactMesh(int vertex_count, std::span<const std::array<int, 3>> triangles,
+                        std::span<const std::array<int, 2>> twins = {});
 
 }  // namespace gambeson

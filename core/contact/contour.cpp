@@ -8,7 +8,7 @@
 namespace gambeson {
 namespace {
 
-/// A pair of crossing triangles and its two ends: crossings, or -1 for the vertex that they share.
+/// A pair of crossing triangles and its two ends: crossings, or -1 for the vertex by which they hang together.
 struct Pair {
   int a, b;  ///< a < b
   std::array<int, 2> end{-1, -1};
@@ -48,11 +48,11 @@ Graph crossingGraph(const ContactMesh& mesh, std::span<const Crossing> crossings
   return g;
 }
 
-/// The one vertex that two triangles share.
+/// The vertex of the first triangle by which two hang together.
 int sharedVertex(const ContactMesh& mesh, int a, int b) {
   for (int v : mesh.triangles[a])
     for (int w : mesh.triangles[b])
-      if (v == w) return v;
+      if (v == w || mesh.areTwins(v, w)) return v;
   assert(false);
   return -1;
 }

@@ -43,7 +43,7 @@ std::vector<Crossing> findCrossings(const ContactMesh& mesh, std::span<const Vec
   const auto test = [&](int e, int t, std::vector<Crossing>& out) {
     const auto& [v, w] = mesh.edges[e];
     const auto& [a, b, c] = mesh.triangles[t];
-    if (v == a || v == b || v == c || w == a || w == b || w == c) return;
+    if (mesh.hangTogether(mesh.edges[e], mesh.triangles[t])) return;
     if (!obstacle.empty() && obstacle[v] && obstacle[a]) return;
     const int back = orientation(x, {a, b, c, v}), front = orientation(x, {a, b, c, w});
     if (back == front) return;

@@ -20,8 +20,9 @@ struct Crossing {
 /// Boxes of the triangles, for a tree over them.
 std::vector<Box> triangleBoxes(const ContactMesh& mesh, std::span<const Vec3> x);
 
-/// All crossings of edges with triangles that share no vertex with them (where one is shared they cannot cross), sorted
-/// by edge, then triangle. The points are those of `orientation`: moved by infinitely small amounts, so that every
+/// All crossings of edges with triangles that do not hang together with them, sorted by edge, then triangle: where a
+/// vertex is shared they cannot cross, and the two sides of a sewn seam are one line but for what the chords of both
+/// differ by. The points are those of `orientation`: moved by infinitely small amounts, so that every
 /// contact is a clean crossing or none. Hence two triangles without a common vertex have no crossing or two; with one
 /// common vertex, none or one (their intersection starts at that vertex); with two, none. `triangle_tree` is over
 /// triangleBoxes(mesh, x). `obstacle` (one flag per vertex, the same for all vertices of a connected piece; or empty)

@@ -85,7 +85,7 @@ class Primitives {
     const int v = mesh_.triangles[a][k];
     const std::array<int, 3>& c = mesh_.triangles[t];
     const double margin = marginOf(blunt) + motion_.slack(v) + slackOf(c);
-    if (beyond > margin || v == c[0] || v == c[1] || v == c[2]) return;
+    if (beyond > margin || mesh_.hangTogether(std::array{v}, c)) return;
     if (!mayMeet(tree_.vertexBox(v), box, reachOf(blunt))) return;
     points_.add(v, t, {v, c[0], c[1], c[2]}, margin, foundPoint());
   }
@@ -105,7 +105,7 @@ class Primitives {
       const bool blunt = (blunt_[a] & (8 << k)) || (blunt_[b] & (8 << l));
       const std::array<int, 2>& y = mesh_.edges[f];
       const double margin = marginOf(blunt) + slack + slackOf(y);
-      if (beyond > margin || v[0] == y[0] || v[0] == y[1] || v[1] == y[0] || v[1] == y[1]) continue;
+      if (beyond > margin || mesh_.hangTogether(v, y)) continue;
       if (!mayMeet(box, tree_.boxOf(y), reachOf(blunt))) continue;
       edges_.add(std::min(e, f), std::max(e, f), {v[0], v[1], y[0], y[1]}, margin, foundEdges());
     }

@@ -73,7 +73,7 @@ class PairCollector {
   explicit PairCollector(const ContactMesh& mesh, const BluntFeatures& blunt = {});
 
   /// Of ContactTree::pairs, the primitives that may come within their margin of each other in the motion that the tree
-  /// was fitted to; those that share a vertex are not pairs. `also_blunt`: for as long as the list lasts, flags of all
+  /// was fitted to; those that hang together are not pairs. `also_blunt`: for as long as the list lasts, flags of all
   /// vertices and edges.
   void collect(const ContactMesh& mesh, const ContactTree& tree, const ListedMotion& motion, const PairRules& rules,
                CandidatePairs& out, const BluntFeatures* also_blunt = nullptr) const;

@@ -119,7 +119,7 @@ CollisionModel buildCollisions(const Surface& surface, std::span<const Vec3> res
     m.deforms = m.deforms || obstacles[o].deforms;
     for (const Vec3& p : mesh->vertices) x.push_back(placement[o] * p);
   }
-  m.mesh = contactMesh(static_cast<int>(x.size()), triangles);
+  m.mesh = contactMesh(static_cast<int>(x.size()), triangles, surface.twins);
   markSharp(m, x);
   const SurfaceCharts charts = surfaceCharts(surface, rest);
   for (int body : m.body_of_vertex) m.is_body.push_back(body >= 0);

@@ -90,26 +90,42 @@ void SewnHold::touch(std::span<const int> points) {
       sewn_.push_back(static_cast<int>(k));
   const std::size_t n = sewn_.size();
   held_.assign(n * n, 0.0);
-  for (std::size_t c = 0; c < n; ++c) {
+  const auto at = [&](std::size_t k) -> Vec3& {
+    return all_[static_cast<std::size_t>(points_[static_cast<std::size_t>(sewn_[k])])];
+  };
+  for (std::size_t c = 0; c < n; c += 3) {  // three points at once, each in a component of its own
+    const int count = static_cast<int>(std::min<std::size_t>(3, n - c));
     std::fill(all_.begin(), all_.end(), Vec3{});
-    const int point = points_[static_cast<std::size_t>(sewn_[c])];
-    all_[static_cast<std::size_t>(point)] = {1, 0, 0};
+    for (int k = 0; k < count; ++k) at(c + static_cast<std::size_t>(k))[k] = 1;
     model_.sewing.hold(all_, work_);
     for (std::size_t r = 0; r < n; ++r)
-      held_[r * n + c] = all_[static_cast<std::size_t>(points_[static_cast<std::size_t>(sewn_[r])])].x;
+      for (int k = 0; k < count; ++k) held_[(c + static_cast<std::size_t>(k)) * n + r] = at(r)[k];
   }
 }
 
+// Column by column, so that rows are summed side by side in vectors, each in the order of the columns.
 void SewnHold::holdTouched(std::span<Vec3> change) const {
-  const std::size_t n = sewn_.size();
-  std::vector<Vec3>& left = work_.moved;
-  left.assign(n, Vec3{});
-  forAll(Each::sum, static_cast<int>(n), [&](int r) {
-    for (std::size_t c = 0; c < n; ++c)
-      left[static_cast<std::size_t>(r)] +=
-          held_[static_cast<std::size_t>(r) * n + c] * change[static_cast<std::size_t>(sewn_[c])];
+  constexpr int kRows = 64;  // of a block
+  const int n = static_cast<int>(sewn_.size());
+  std::vector<Vec3>& before = work_.moved;
+  before.clear();
+  for (const int k : sewn_) before.push_back(change[static_cast<std::size_t>(k)]);
+  forAll(Each::much, (n + kRows - 1) / kRows, [&](int block) {
+    double left[3][kRows] = {};
+    const int first = block * kRows, count = std::min(kRows, n - first);
+    for (int c = 0; c < n; ++c) {
+      const double* column = &held_[static_cast<std::size_t>(c) * n + first];
+      const Vec3 x = before[static_cast<std::size_t>(c)];
+      for (int r = 0; r < count; ++r) {
+        left[0][r] += column[r] * x.x;
+        left[1][r] += column[r] * x.y;
+        left[2][r] += column[r] * x.z;
+      }
+    }
+    for (int r = 0; r < count; ++r)
+      change[static_cast<std::size_t>(sewn_[static_cast<std::size_t>(first + r)])] = {left[0][r], left[1][r],
+                                                                                      left[2][r]};
   });
-  for (std::size_t r = 0; r < n; ++r) change[static_cast<std::size_t>(sewn_[r])] = left[r];
 }
 
 bool contactsMeetSeams(const Model& m, std::span<const ContactRow> rows) {

@@ -46,7 +46,7 @@ class SewnHold : public MotionHold {
   const Model& model_;
   std::vector<int> points_;
   std::vector<int> sewn_;     ///< of these, which a seam takes hold of: place in points_
-  std::vector<double> held_;  ///< what is taken of their changes, a row for each
+  std::vector<double> held_;  ///< what becomes of their changes, a column for each
   mutable SewnProjection::Work work_;
   mutable std::vector<Vec3> all_;
 };

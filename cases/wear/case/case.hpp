@@ -103,6 +103,15 @@ struct MeshGarment {
   double unit_m = 1, uv_unit_m = 1;  ///< length of a unit of the file, and of its uv
 };
 
+/// Flat panels from a file of a pattern, each on its grain (tryon/pattern/flat/panel_garment.hpp), sewn around the
+/// wearer.
+struct PatternGarment {
+  std::filesystem::path path;
+  double cell_m = 0.02;
+  int degree = 2;
+  double close_within_s = 5;  ///< by then its seams are closed
+};
+
 /// Virtual stitching, Zheng 2013, section 6.3: the panels start apart, and springs along the seams close them.
 struct Stitching {
   double offset_m = 0.05;            ///< of the panels from where they are drafted
@@ -115,7 +124,7 @@ struct Stitching {
 struct GarmentCase {
   std::string name;  ///< where there are several: what supports and tables call it; unique
   std::variant<SheetGarment, DiscGarment, TubeGarment, ShortsGarment, TrousersGarment, BeltGarment, ShirtGarment,
-               SkirtGarment, FileGarment, MeshGarment>
+               SkirtGarment, FileGarment, MeshGarment, PatternGarment>
       shape;
   ClothModel cloth;
   Vec3 position_m;                        ///< moves the shape

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cases/input/wrong_entry.hpp"
+#include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/case/supports/kind.hpp"
 #include "core/error.hpp"
 
@@ -55,6 +56,7 @@ class Refusals {
     if (g.cloth.kind == ClothKind::springs) refuse(key + ".model", "springs are not carried by", "\"nurbs\"");
     if (g.cloth.kind == ClothKind::shell)
       refuse(key + ".model", "the degenerated shell is not carried by", "\"nurbs\"");
+    if (kindOf(g).sewn) refuse(key + ".pattern", "panels with sewn seams are not carried by", "drafted garments");
     if (g.fabric) lookAtFabric(key + ".fabric", *g.fabric);
     for (std::size_t k = 0; k < g.other_fabrics.size(); ++k)
       lookAtFabric(fmt::format("{}.other_fabrics[{}]", key, k), g.other_fabrics[k]);
@@ -68,8 +70,7 @@ class Refusals {
             if (!s.drive.empty())
               refuse(fmt::format("{}.{}.drive", key, kindOf(support).word),
                      "points that are held and moved are not carried by", "supports that stand still");
-          if constexpr (std::is_same_v<S, CordSupport>)
-            refuse(key + ".cord", "cords are not carried by", "springs");
+          if constexpr (std::is_same_v<S, CordSupport>) refuse(key + ".cord", "cords are not carried by", "springs");
         },
         support);
   }

@@ -149,6 +149,18 @@ void checkFieldsOf(const Entry& entry, const Case& c, const GarmentCase& g) {
   }
 }
 
+/// Of garments of flat panels: how they are put on, and keys that they have no use for.
+void checkSewn(const Entry& root, const Entry& entry, const Case& c, const GarmentKind& kind) {
+  if (c.human && !c.dressing.layer_by_layer && c.dressing.from.empty())
+    entry.failAt(kind.word, "needs dressing.layer_by_layer: panels are sewn around the wearer before they have weight");
+  if (!c.human && c.garments.size() > 1)
+    entry.failAt(kind.word, "is put on by itself: without a human it is the only garment");
+  for (const char* key : {"stitching", "seam_stiffness"})
+    if (entry.node.find(key)) entry.failAt(key, "is for drafted garments; the file of a pattern says it of each seam");
+  if (c.time.motion.scheme != MotionScheme::verlet)
+    failAt(root, {"time", "scheme"}, "sewn seams hold in steps of velocity Verlet; allowed with a pattern: verlet");
+}
+
 void checkGarments(const Entry& root, const Case& c) {
   std::set<std::string> names;
   bool all_own = true;
@@ -165,6 +177,7 @@ void checkGarments(const Entry& root, const Case& c) {
     checkModel(entry, c, g);
     checkFieldsOf(entry, c, g);
     all_own = all_own && g.fabric;
+    if (kind.sewn) checkSewn(root, entry, c, kind);
     if (g.stitching && !c.dressing.layer_by_layer && c.dressing.from.empty())
       entry.failAt("stitching", "needs dressing.layer_by_layer: each garment is then put on by itself");
   }
@@ -221,7 +234,8 @@ void checkTime(const Entry& root, const Case& c) {
         support);
   };
   if (std::any_of(c.supports.begin(), c.supports.end(), moves))
-    failAt(root, {"time", "scheme"}, "goes without supports that move or let go, and without cords; allowed with them: \"verlet\"");
+    failAt(root, {"time", "scheme"},
+           "goes without supports that move or let go, and without cords; allowed with them: \"verlet\"");
   if ((scheme == MotionScheme::euler || scheme == MotionScheme::midpoint) && !(c.time.step_s > 0) &&
       !(c.air.drag_kg_per_m2s > 0))
     failAt(root, {"time", "scheme"},
@@ -280,8 +294,8 @@ void checkFactors(const Entry& root, const Case& c) {
         return is_table(fabricOf(c, g)) || std::any_of(g.other_fabrics.begin(), g.other_fabrics.end(), is_table);
       }))
     return;
-  for (const auto& [key, factor] : {std::pair("thickness", c.factors.thickness), std::pair("bending", c.factors.bending),
-                                    std::pair("membrane", c.factors.membrane)})
+  for (const auto& [key, factor] : {std::pair("thickness", c.factors.thickness),
+                                    std::pair("bending", c.factors.bending), std::pair("membrane", c.factors.membrane)})
     if (factor != 1) failAt(root, {"factors", key}, "does not go with a fabric whose law is a table; allowed: 1");
 }
 

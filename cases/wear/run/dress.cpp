@@ -5,10 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/input/message.hpp"
+#include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/case/supports/kind.hpp"
 #include "cases/wear/scene/worn.hpp"
 #include "core/error.hpp"
 #include "core/motion/free_steps.hpp"
+#include "core/motion/sewing.hpp"
+#include "core/motion/step.hpp"
+#include "tryon/girth.hpp"
 #include "tryon/stitching.hpp"
 
 namespace gambeson {
@@ -77,7 +82,7 @@ Closed closePanels(const Case& one, const Case& whole, std::size_t garment) {
       makeIntegrator(one.time.motion, m, *panels->stage, one.time.control(), frequency, work);
   while (widest > law.close_m && state.time_s < -1e-9) {
     integrator->advance(std::min(0.0, state.time_s + look_s), state,
-                 [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
+                        [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
     widest = widestStitch(m.stitches, m.surface.WT, state.p);
   }
   if (widest > law.close_m)
@@ -86,6 +91,77 @@ Closed closePanels(const Case& one, const Case& whole, std::size_t garment) {
                     "sewn: {:.1f} mm); stiffer springs, more time or a larger offset may close them",
                     one.garments[0].name, 1e3 * widest, law.within_s, 1e3 * law.close_m));
   return {std::move(panels), std::move(state)};
+}
+
+/// Seams of panels are closed [sides of a cell].
+constexpr double closed_cells = 0.05;
+
+/// A garment of flat panels by itself, without supports, with the time that its seams have to close.
+std::unique_ptr<Scenario> standingPanels(const Case& one, const Case& whole, std::size_t garment) {
+  Case standing = one;
+  standing.supports.clear();
+  standing.dressing.projecting.reset();
+  standing.dressing.settle_s = std::get<PatternGarment>(one.garments[0].shape).close_within_s;
+  return buildAlone(standing, whole, garment);
+}
+
+/// "armhole" gapes by up to 12.3 mm, the widest first.
+std::string gapesText(const Scenario& s, const State& state) {
+  const SewnRows rows = s.model->cloth->sewnRows();
+  const std::vector<Vec3> q = controlPoints(s, state);
+  std::vector<Vec3> gap(static_cast<std::size_t>(rows.rows()));
+  rows.C.multiply<Vec3>(q, gap);
+  const std::vector<SewnSeam>& seams = s.wardrobe.drafts[0].sewn_seams;
+  std::vector<std::pair<double, std::size_t>> widest;
+  for (std::size_t k = 0; k < seams.size(); ++k) widest.push_back({0, k});
+  for (std::size_t r = 0; r < gap.size(); ++r) {
+    double& most = widest[static_cast<std::size_t>(rows.seam[r])].first;
+    most = std::max(most, norm(gap[r]));
+  }
+  std::sort(widest.begin(), widest.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::string text;
+  for (std::size_t k = 0; k < std::min<std::size_t>(3, widest.size()); ++k)
+    text +=
+        fmt::format("{}\"{}\" by {:.1f} mm", k == 0 ? "" : ", ", seams[widest[k].second].name, 1e3 * widest[k].first);
+  return text;
+}
+
+/// Stretched by more around the body a garment does not fit; what ease and the fabric's own give is less.
+constexpr double fitting_stretch = 0.02;
+
+/// Where the garment is short around the body, and by how much; empty where it fits.
+std::string fitText(const Scenario& s, const State& state) {
+  const Model& m = *s.model;
+  std::vector<Vec3> rest(static_cast<std::size_t>(m.surface.size())), worn;
+  m.surface.W.multiply<Vec3>(m.cloth->rest(), rest);
+  samplePositions(m, state.p, worn);
+  return shortText(shortGirths(m.surface, rest, worn, {0, 0, 1}, fitting_stretch));
+}
+
+/// Its seams close around the body, each at its own rate (core/motion/sewing.hpp), without weight.
+State sewnAround(const Scenario& s) {
+  const Model& m = *s.model;
+  StepWork work;
+  State state = startOf(s, work);
+  Frequency frequency;
+  const TimeCase& time = s.definition.time;
+  const std::unique_ptr<Integrator> integrator =
+      makeIntegrator(time.motion, m, *s.stage, time.control(), frequency, work);
+  double widest = widestGap(m, state.p);
+  while (widest > closed_cells && state.time_s < -1e-9) {
+    integrator->advance(std::min(0.0, state.time_s + look_s), state,
+                        [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
+    widest = widestGap(m, state.p);
+  }
+  if (widest > closed_cells)
+    throw RunError(
+        fmt::format("seams gape after {} s, {:.2g} sides of a cell at most (to be closed: {}): {}; more time "
+                    "(close_within), or panels that stand nearer to the wearer, may close them{}{}",
+                    -s.start_s, widest, closed_cells, gapesText(s, state),
+                    fitText(s, state).empty() ? "" : ". It does not fit: ", fitText(s, state)));
+  if (const std::string fit = fitText(s, state); !fit.empty())
+    sayNote(fmt::format("garment \"{}\" does not fit: {}", s.wardrobe.drafts[0].name, fit));
+  return state;
 }
 
 }  // namespace
@@ -101,12 +177,13 @@ Dressed putOnApart(const Case& c) {
         closed = closePanels(one, c, g);
         one.dressing.projecting.reset();
       }
-      const std::unique_ptr<Scenario> s = buildAlone(one, c, g);
+      const bool sewn = kindOf(one.garments[0]).sewn;
+      const std::unique_ptr<Scenario> s = sewn ? standingPanels(one, c, g) : buildAlone(one, c, g);
       if (stitched) {
         s->start_m = sew(s->model->cloth->map(), controlPoints(*closed.panels, closed.state));
         s->start_history = carriedHistory(*closed.panels->model->cloth, closed.state.history, *s->model->cloth);
       }
-      const State state = settled(*s, nullptr);
+      const State state = sewn ? sewnAround(*s) : settled(*s, nullptr);
       Dressed worn = dressedOf(*s, state);
       dressed.body = worn.body;
       dressed.posture = worn.posture;
@@ -125,13 +202,17 @@ void buildApart(const Case& c) {
       floatingPanels(one, c, g);
       one.dressing.projecting.reset();
     }
-    buildAlone(one, c, g);
+    kindOf(one.garments[0]).sewn ? standingPanels(one, c, g) : buildAlone(one, c, g);
   }
 }
 
 void putOn(Scenario& s) {
   const DressingCase& dressing = s.definition.dressing;
   if (dressing.layer_by_layer && dressing.from.empty()) wear(s, putOnApart(s.definition));
+  const Case& c = s.definition;
+  if (c.human || !kindOf(c.garments[0]).sewn) return;
+  const std::unique_ptr<Scenario> panels = standingPanels(alone(c, 0), c, 0);
+  s.start_m = sewnAround(*panels).p;
 }
 
 namespace {

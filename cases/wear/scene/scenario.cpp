@@ -174,7 +174,7 @@ bool isProjected(const Case& c) {
 
 /// When growing, settling and the motion begin.
 void planTimes(const Case& c, Scenario& s, CaseStage& stage) {
-  const double grow = isProjected(c) ? c.dressing.projecting->grow_s : 0, settle = c.human ? c.dressing.settle_s : 0;
+  const double grow = isProjected(c) ? c.dressing.projecting->grow_s : 0, settle = c.dressing.settle_s;
   s.start_s = -(grow + settle);
   s.end_s = c.time.duration_s ? *c.time.duration_s : s.motion ? s.motion->duration() : 0;
   stage.grow_start_s = s.start_s;
@@ -188,8 +188,10 @@ void putOnAtStart(const Case& c, Scenario& s) {
     const Dressed dressed = readDressed(c.dressing.from);
     wear(s, dressed);
     s.stage->dressed = dressed.posture;
-  } else if (s.stage->settle_start_s < 0 && std::any_of(c.garments.begin(), c.garments.end(),
-                                                        [](const GarmentCase& worn) { return kindOf(worn).drafted; })) {
+  } else if (s.stage->settle_start_s < 0 &&
+             std::any_of(c.garments.begin(), c.garments.end(),
+                         [](const GarmentCase& worn) { return kindOf(worn).drafted || kindOf(worn).sewn; }) &&
+             s.human) {
     s.stage->dressed = standing(*s.human);  // which the garments are drafted for
   }
 }

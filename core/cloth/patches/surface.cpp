@@ -9,8 +9,9 @@
 
 #include "core/cloth/draft/cells.hpp"
 #include "core/cloth/draft/grid_lines.hpp"
-#include "core/nurbs/trim_mesh.hpp"
+#include "core/cloth/patches/sewn_twins.hpp"
 #include "core/error.hpp"
+#include "core/nurbs/trim_mesh.hpp"
 
 namespace gambeson {
 namespace {
@@ -239,6 +240,7 @@ Surface buildSurface(const Garment& garment, const FreeMap& map, std::span<const
                            std::to_string(s.parameters[i].x) + ", " + std::to_string(s.parameters[i].y) +
                            ") would carry the area " + std::to_string(s.area_m2[i]) +
                            " m^2; choose another number of samples per cell");
+  s.twins = sewnTwins(garment, s);
   return s;
 }
 

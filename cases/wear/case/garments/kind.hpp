@@ -35,6 +35,7 @@ struct GarmentKind {
 
   const char* word = "";  ///< its key in a case file
   bool drafted = false;   ///< on the human, without whom it cannot be
+  bool sewn = false;      ///< flat panels that stand around the wearer, whose seams close when it is put on
   /// Adds its key, with the table of what stands below it.
   void (*addTo)(schema::Table<GarmentCase>& table) = nullptr;
   /// Edges and patches that it has by name before it is made; of what is read only its file knows them.

@@ -67,7 +67,8 @@ TEST(Kinds, OfGarmentsSayWhereTheyComeFrom) {
   const std::set<std::string> drafted{"shorts", "trousers", "belt", "shirt", "skirt"};
   for (const GarmentKind* kind : garmentKinds()) {
     const std::string word = kind->word;
-    EXPECT_EQ(kind->isRead(), word == "file" || word == "mesh_file") << word;
+    EXPECT_EQ(kind->isRead(), word == "file" || word == "mesh_file" || word == "pattern") << word;
+    EXPECT_EQ(kind->sewn, word == "pattern") << word;
     EXPECT_EQ(kind->isMesh(), word == "mesh_file") << word;
     EXPECT_EQ(kind->drafted, drafted.contains(word)) << word;
     EXPECT_NE(kind->make, nullptr) << word;

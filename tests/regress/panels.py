@@ -1,0 +1,93 @@
+#!/usr/bin/env python3
+"""A tube of two flat panels is sewn around a ball and worn.
+
+    panels.py GAMBESON
+
+One that fits closes, crosses nothing and passes all checks of its run; one that is too narrow is worn too, and said to be
+short, by what the ball is wider; seams that have no time to close end the run by name; what is wrong in a pattern is said
+with file, panel and seam.
+"""
+
+import json
+import math
+import re
+
+from common import Folder, check, run, summary
+
+RADIUS = 0.10  # m
+
+
+def pattern(width):
+    def panel(name, sign):
+        outline = [{"start": [width * x, y]} for x, y in ((-0.5, 0), (0.5, 0), (0.5, 0.12), (-0.5, 0.12))]
+        return {"name": name, "outline": outline,
+                "placement": {"origin": [sign * 0.13, 0, -0.06], "along_x": [0, sign, 0], "along_y": [0, 0, 1]}}
+
+    return {"format": "gambeson pattern 1", "name": "tube", "panels": [panel("front", 1), panel("back", -1)],
+            "seams": [{"name": "left", "a": ["front.1"], "b": ["back.3 reversed"]},
+                      {"name": "right", "a": ["back.1"], "b": ["front.3 reversed"]}]}
+
+
+CASE = {
+    "name": "a tube of two panels on a ball",
+    "garment": {"pattern": {"path": "tube.json", "cell": "20 mm"}},
+    "fabric": {"name": "cotton", "thickness": "0.5 mm", "surface_density": "200 gsm", "young": "300 kPa", "poisson": 0.2,
+               "bending": {"law": "linear", "rigidity": "1e-5 N m"}},
+    "obstacles": [{"name": "ball", "sphere": {"radius": RADIUS}}],
+    "contact": {"friction": 0.5},
+    "air": {"drag": "0.5 kg/(m^2 s)"},
+    "time": {"duration": "0.03 s"},
+}
+
+
+def worn(folder, name, tube, case=CASE):
+    place = folder / name
+    place.mkdir()
+    (place / "tube.json").write_text(json.dumps(tube))
+    (place / "case.json").write_text(json.dumps(case))
+    return run("run", place / "case.json", "--out", place / "out"), place
+
+
+def main():
+    with Folder() as folder:
+        girth = 2 * math.pi * RADIUS
+        done, place = worn(folder, "fits", pattern(0.51 * girth))
+        check(done.returncode == 0, f"the tube that fits gave {done.returncode}: {done.stderr}")
+        check("does not fit" not in done.stderr, f"the tube that fits does not: {done.stderr}")
+        numbers = summary(place / "out")
+        failed = [c for c in numbers["audit"] if not c["holds"]]
+        check(not failed, f"checks of the tube that fits: {failed}")
+        check(numbers["collisions"]["most_intersections"] == 0, f"the tube that fits crosses: {numbers['collisions']}")
+
+        width = 0.45 * girth
+        done, place = worn(folder, "short", pattern(width))
+        check(done.returncode == 0, f"the narrow tube gave {done.returncode}: {done.stderr}")
+        said = re.search(r"it is ([0-9.]+) cm around and worn ([0-9.]+) cm: ([0-9.]+) cm short", done.stderr)
+        check(said, f"the narrow tube is not said to be short: {done.stderr}")
+        rest, at, short = map(float, said.groups())
+        check(abs(rest - 200 * width) < 0.2, f"the narrow tube is {200 * width} cm around, not {rest}")
+        check(abs(at - 100 * girth) < 0.02 * 100 * girth, f"the ball is {100 * girth} cm around, not {at}")
+        print(f"narrow tube: {said.group(0)}")
+
+        hasty = json.loads(json.dumps(CASE))
+        hasty["garment"]["pattern"]["close_within"] = "50 ms"
+        done, place = worn(folder, "hasty", pattern(0.51 * girth), hasty)
+        check(done.returncode == 1 and '"left: front.1 to back.3" by' in done.stderr,
+              f"seams without time to close: {done.returncode}, {done.stderr}")
+
+        wrong = pattern(0.51 * girth)
+        del wrong["panels"][1]["placement"]
+        done, place = worn(folder, "unplaced", wrong)
+        check(done.returncode == 2 and "tube.json" in done.stderr and 'panel "back" has no placement' in done.stderr,
+              f"a panel without placement: {done.returncode}, {done.stderr}")
+        wrong = pattern(0.51 * girth)
+        wrong["seams"][0]["a"] = ["front.1 from 0 to 0.3"]
+        done, place = worn(folder, "unequal", wrong)
+        check(done.returncode == 2 and "tube.json" in done.stderr and '"left: front.1 to back.3"' in done.stderr,
+              f"a seam of unequal sides: {done.returncode}, {done.stderr}")
+        limited = {**CASE, "strain_limit": {"mode": "upper_limit", "limit": 0.05}}
+        done, place = worn(folder, "limited", pattern(0.51 * girth), limited)
+        check(done.returncode == 2 and "strain_limit" in done.stderr, f"a limit of strain: {done.returncode}, {done.stderr}")
+
+
+main()

@@ -1,0 +1,24 @@
+#pragma once
+/// Flat panels as cloth: each a trimmed NURBS rectangle on its grain, flat at rest where its placement has it, and the
+/// pattern's seams between them (core/cloth/draft/sewn_seam.hpp).
+
+#include "core/cloth/draft/garment.hpp"
+#include "tryon/pattern/flat/panel.hpp"
+
+namespace gambeson {
+
+struct PanelCells {
+  double cell_m = 0.02;  ///< wanted size of a cell, > 0
+  int degree = 2;
+};
+
+/// Patch k is panel k: parameters (u, v) in m along weft and warp, u x v towards the right side; its rectangle is as
+/// large as the panel, whose outline and cutouts trim it. Seam k is seam k; openings are sewn. Takes patterns that
+/// checkPattern lets pass. Throws InputError (key "panels[i]" or "seams[i]", names in the reason) where a panel has no
+/// placement or is cut more than once, or where the sides of a seam are too unequal or no border. Without a fabric.
+Garment panelGarment(const FlatPattern& pattern, const PanelCells& cells);
+
+/// "front.1 + yoke.0", as seams name their sides.
+std::string sideText(const FlatPattern& pattern, const std::vector<SeamPart>& side);
+
+}  // namespace gambeson
