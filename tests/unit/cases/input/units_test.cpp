@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <string_view>
 
+#include "cases/input/unit_symbols.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {
@@ -128,6 +130,19 @@ TEST(Units, LaboratoriesAndShopsAreUnderstood) {
   for (const Good& c : cases) {
     SCOPED_TRACE(c.text);
     EXPECT_NEAR(parseQuantity(c.text, c.unit), c.si, 1e-14 * std::abs(c.si));
+  }
+}
+
+/// The examples of a message are of the dimension that it names.
+TEST(Units, ExamplesMeasureWhatTheyAreExamplesOf) {
+  for (const char* unit :
+       {"m",     "m^2",  "1/m",     "s",      "1/s",        "m/s",  "m/s^2", "rad",       "rad/s",  "rad/m",
+        "kg",    "kg/m", "kg/m^2",  "kg/m^3", "kg m^2",     "N",    "N/m",   "N/(m rad)", "N/rad",  "Pa",
+        "N/m^3", "N m",  "N m/rad", "N m^2",  "kg/(m^2 s)", "kg/s", "Pa s",  "m/Pa",      "m^2/s^2"}) {
+    const Measure* measure = measureWith(parseUnit(unit).dimension);
+    ASSERT_NE(measure, nullptr) << unit;
+    for (const std::string_view example : measure->units)
+      EXPECT_EQ(parseUnit(example).dimension, parseUnit(unit).dimension) << unit << ": " << example;
   }
 }
 
