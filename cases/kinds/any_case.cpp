@@ -48,9 +48,7 @@ AnyCase readAnyCase(const JsonNode& root, const std::filesystem::path& file) {
   } catch (const InputErrors& errors) {
     Mistakes hinted;
     for (const InputError& e : errors.all()) {
-      const bool unknown = e.reason().starts_with(kUnknownKey),
-                 placed = e.reason().find(" belongs ") != std::string::npos;
-      const std::string kinds = unknown && !placed ? kindsWith(e.where().key) : "";
+      const std::string kinds = e.reason().starts_with(kUnknownKey) ? kindsWith(e.where().key) : "";
       hinted.add(kinds.empty() ? e
                                : InputError(e.where(), fmt::format("{}cases of \"kind\" {} have it; {}", kUnknownKey,
                                                                    kinds, e.reason().substr(kUnknownKey.size()))));

@@ -90,7 +90,7 @@ TEST(Mistakes, KeysThatBelongElsewhereSayWhere) {
             std::string::npos);
   EXPECT_NE(reasonOf("\"weft_angle\"", "\"inseam\": 1, \"weft_angle\"").find("\"inseam\" belongs under garment."),
             std::string::npos);
-  EXPECT_NE(reasonOf("\"name\": \"example\",", "\"name\": \"example\", \"solver\": {},")
+  EXPECT_NE(reasonOf("\"name\": \"example\",", "\"name\": \"example\", \"material\": {},")
                 .find("cases of \"kind\" static, dynamic or modal have it"),
             std::string::npos);
 }
