@@ -36,9 +36,9 @@ inline void expectRefused(const std::string& good, const std::vector<Bad>& cases
       bool found = false;
       for (const InputError& one : mistakesOf(e)) {
         said += std::string(one.what()) + "\n";
-        found = found || (one.where().file == file.string() && one.where().line == c.line &&
-                          (c.key.empty() || one.where().key == c.key) &&
-                          one.reason().find(c.reason) != std::string::npos);
+        found =
+            found || (one.where().file == file.string() && one.where().line == c.line &&
+                      (c.key.empty() || one.where().key == c.key) && one.reason().find(c.reason) != std::string::npos);
       }
       EXPECT_TRUE(found) << "expected " << c.line << ": " << c.key << ": " << c.reason << "\n" << said;
     }

@@ -107,14 +107,13 @@ TEST(Card, GivesTheFabricThatWasMeasured) {
 
 TEST(Card, SaysWhatItAssumes) {
   const Folder folder;
-  const CardFabric made = fabricOf(readCard(folder.write(
-      "little.card.json",
-      R"({"name": "a", "source": "b", "thickness": "1 mm",
+  const CardFabric made = fabricOf(readCard(folder.write("little.card.json",
+                                                         R"({"name": "a", "source": "b", "thickness": "1 mm",
           "bending": {"B": "0.1 gf cm", "2HB": "0.02 gf", "2HB_at": "1 1/cm"}})")));
   for (const char* what : {"weight 400", "EMT 5 %", "poisson 0", "G 1 gf", "K0 0.5/cm", "about all axes"})
-    EXPECT_TRUE(std::any_of(made.assumed.begin(), made.assumed.end(),
-                            [&](const std::string& s) { return s.find(what) != std::string::npos; }))
-        << what;
+    EXPECT_TRUE(std::any_of(made.assumed.begin(), made.assumed.end(), [&](const std::string& s) {
+      return s.find(what) != std::string::npos;
+    })) << what;
 }
 
 TEST(Card, SecantsFollowTheCurveOfLt) {
@@ -127,8 +126,7 @@ TEST(Card, SecantsFollowTheCurveOfLt) {
   t.linearity.both = 2. / 3;  // F = F_max (e/EMT)^2
   t.secant_at_N_per_m = t.load_N_per_m / 4;
   const double e = 0.025;
-  EXPECT_NEAR(pointLaw(fabricOf(card).fabric).section.A[0],
-              t.load_N_per_m / 4 / ((1 + e) * (e + 0.5 * e * e)), 1e-9);
+  EXPECT_NEAR(pointLaw(fabricOf(card).fabric).section.A[0], t.load_N_per_m / 4 / ((1 + e) * (e + 0.5 * e * e)), 1e-9);
 }
 
 const std::string usual_fabric = R"(  "fabric": {
