@@ -90,8 +90,12 @@ void addDress(CLI::App& app, DressArguments& a) {
 }
 
 void addCheck(CLI::App& app, CheckArguments& a) {
-  CLI::App& check = *app.add_subcommand("check", "Checks a case without running it");
-  check.add_option("CASE", a.file, "Case file (JSON); not needed with --schema or --doc")->type_name("");
+  CLI::App& check = *app.add_subcommand("check", "Checks a case, or another file, without running it");
+  check
+      .add_option("CASE", a.file,
+                  "Case file (JSON); not needed with --schema or --doc. Of a study, card, law, garment, pattern, motion, "
+                  "mesh or folder of results it says what it is and whether it is sound")
+      ->type_name("");
   addOverrides(check, a.overrides);
   check.add_flag("--full", a.full, "Prints the case with all defaults written out, in SI");
   check.add_flag("--schema", a.schema,

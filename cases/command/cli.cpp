@@ -12,10 +12,14 @@
 #include "analysis/animation/obj.hpp"
 #include "cases/cell/run.hpp"
 #include "cases/cloth/kind_fields.hpp"
+#include "cases/cloth/usual.hpp"
 #include "cases/command/arguments.hpp"
+#include "cases/command/check_file.hpp"
 #include "cases/command/documents.hpp"
 #include "cases/fabric/run.hpp"
 #include "cases/input/message.hpp"
+#include "cases/input/mistakes.hpp"
+#include "cases/input/overrides.hpp"
 #include "cases/kinds/any_case.hpp"
 #include "cases/pattern/flat_draft.hpp"
 #include "cases/pattern/import.hpp"
@@ -24,10 +28,12 @@
 #include "cases/runs/picture.hpp"
 #include "cases/runs/results_folder.hpp"
 #include "cases/runs/stop_message.hpp"
+#include "cases/structure/fields.hpp"
 #include "cases/structure/run.hpp"
 #include "cases/study/run.hpp"
 #include "cases/verify/verify.hpp"
 #include "cases/wear/case/device_keys.hpp"
+#include "cases/wear/case/fields.hpp"
 #include "cases/wear/results/results.hpp"
 #include "cases/wear/run/draft.hpp"
 #include "cases/wear/run/dress.hpp"
@@ -40,6 +46,7 @@ namespace gambeson {
 namespace {
 
 constexpr int done = 0, failed = 1, bad_input = 2;
+constexpr std::size_t kMostMistakes = 40;  ///< that are listed of one input
 
 /// The ending, in lower case, of a file whose name says what is in it. Throws InputError ("command line", option).
 std::string checkEnding(const std::filesystem::path& file, const std::string& option,
@@ -93,6 +100,16 @@ void checkBuild(const AnyCase& any) {
     checkRun(std::get<Case>(any));
 }
 
+/// Numbers of the case as its file and the command line have them.
+std::vector<InputError> unusualOf(const AnyCase& any, const CheckArguments& a) {
+  const JsonNode root = readCaseNode(a.file, a.overrides);
+  const std::string name = a.file.string();
+  const schema::Entry entry{root, "", name};
+  if (const auto* structure = std::get_if<StructureCase>(&any))
+    return unusualNumbers(schema::structureTable(structure->kind), entry);
+  return std::holds_alternative<Case>(any) ? unusualNumbers(schema::caseTable(), entry) : std::vector<InputError>{};
+}
+
 int check(const CheckArguments& a, std::ostream& out) {
   if (a.schema) out << caseSchema();
   if (a.doc) out << caseFields();
@@ -100,7 +117,9 @@ int check(const CheckArguments& a, std::ostream& out) {
     if (a.schema || a.doc) return done;
     throw InputError({"command line", 0, "CASE"}, "is required: the case file to check");
   }
+  if (a.overrides.empty() && !a.full && checkFile(a.file, out)) return done;
   const AnyCase any = readAnyCase(a.file, a.overrides);
+  for (const InputError& unusual : unusualOf(any, a)) sayNote(unusual.what());
   checkBuild(any);
   out << (a.full ? std::visit([](const auto& c) { return writeCase(c); }, any)
                  : fmt::format("{}: valid\n", a.file.string()));
@@ -438,9 +457,13 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
     while (said.ends_with('\n')) said.pop_back();
     if (!said.empty()) failure(said);
   } catch (const InputError& e) {
-    std::string text = e.what();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    failure(text);
+    const std::vector<InputError> all = mistakesOf(e);
+    for (std::size_t i = 0; i < std::min(all.size(), kMostMistakes); ++i) {
+      std::string text = all[i].what();
+      std::replace(text.begin(), text.end(), '\n', ' ');
+      failure(text);
+    }
+    if (all.size() > kMostMistakes) failure(fmt::format("... and {} more", all.size() - kMostMistakes));
     status = bad_input;
   } catch (const RunError& e) {
     failure(fmt::format("gambeson failed: {}", e.what()));

@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <set>
+#include <utility>
 
 #include "cases/input/message.hpp"
+#include "cases/input/mistakes.hpp"
+#include "cases/input/typed.hpp"
 #include "cases/input/units.hpp"
 #include "core/error.hpp"
 
@@ -15,6 +19,11 @@ namespace {
 
 std::string withUnit(double x, const std::string& unit) {
   return unit.empty() ? fmt::format("{}", x) : fmt::format("{} {}", x, unit);
+}
+
+/// A value of SI in a unit; SI itself to the last digit.
+std::string inUnits(double si, double factor) {
+  return factor == 1 ? fmt::format("{}", si) : fmt::format("{:.6g}", si / factor);
 }
 
 /// Edits (insert, delete, replace) that make `a` into `b`: Levenshtein's distance.
@@ -46,16 +55,73 @@ std::vector<std::string> keysOf(const Object& object, const std::string* alterna
   return keys;
 }
 
+constexpr int kDeepestHint = 5;
+
+/// A place where a file has a key: nearer to the top is less, and at one depth where it is required.
+struct Place {
+  int depth = kDeepestHint + 1;
+  bool optional = true;
+  std::string path;
+  bool operator<(const Place& b) const { return std::pair(depth, optional) < std::pair(b.depth, b.optional); }
+};
+
+/// The least of the places of a key in an object and below it; its path is empty where there is none.
+Place placeOf(std::string_view key, const Object& object, int depth = 0) {
+  if (const Field* f = object.find(key)) return {depth, !f->required, f->key};
+  Place best;
+  if (depth >= kDeepestHint) return best;
+  for (const Field& f : object.fields) {
+    if (!f.object) continue;
+    Place below = placeOf(key, *f.object, depth + 1);
+    if (!(below < best)) continue;
+    below.path = f.key + (f.kind == Kind::list ? "[]." : ".") + below.path;
+    best = below;
+  }
+  return best;
+}
+
+/// The same mistakes; of keys that stand elsewhere in the file it is said where.
+void sayInFile(const Mistakes& mistakes, const Object& file) {
+  try {
+    mistakes.say();
+  } catch (const InputErrors& errors) {
+    Mistakes hinted;
+    for (const InputError& e : errors.all()) {
+      const std::string key = e.where().key.substr(e.where().key.rfind('.') + 1);
+      const std::string place = e.reason().starts_with(kUnknownKey) ? placeOf(key, file).path : "";
+      if (place.empty()) {
+        hinted.add(e);
+        continue;
+      }
+      const std::size_t dot = place.rfind('.');
+      const std::string under = dot == std::string::npos ? "at the top of the file" : "under " + place.substr(0, dot);
+      hinted.add(InputError(e.where(), fmt::format("{}\"{}\" belongs {}; {}", kUnknownKey, key, under,
+                                                   e.reason().substr(kUnknownKey.size()))));
+    }
+    hinted.say();
+  }
+}
+
 }  // namespace
 
-std::string Range::text(const std::string& unit) const {
-  const bool has_low = std::isfinite(low), has_high = std::isfinite(high);
+std::string rangeText(const Range& range, const Quantity& in) {
+  const bool has_low = std::isfinite(range.low), has_high = std::isfinite(range.high);
   std::string s;
-  if (has_low) s = fmt::format("{} {}", low_open ? ">" : ">=", low);
-  if (has_high) s += fmt::format("{}{} {}", has_low ? " and " : "", high_open ? "<" : "<=", high);
+  if (has_low) s = fmt::format("{} {}", range.low_open ? ">" : ">=", inUnits(range.low, in.factor));
+  if (has_high)
+    s += fmt::format("{}{} {}", has_low ? " and " : "", range.high_open ? "<" : "<=", inUnits(range.high, in.factor));
   if (s.empty()) return "any";
-  return unit.empty() ? s : s + " " + unit;
+  return in.unit.empty() ? s : s + " " + in.unit;
 }
+
+std::string inUnitOf(const Entry& object, const std::string& key, double si, const std::string& unit) {
+  const JsonNode* child = object.node.find(key);
+  if (!child || child->type != JsonNode::Type::text) return withUnit(si, unit);
+  const Quantity typed = readQuantity(child->text, unit);
+  return typed.unit.empty() ? withUnit(si, unit) : inUnits(si, typed.factor) + " " + typed.unit;
+}
+
+std::string Range::text(const std::string& unit) const { return rangeText(*this, {.unit = unit}); }
 
 void Entry::fail(const std::string& reason) const {
   const bool from_command_line = node.line == 0;
@@ -83,29 +149,55 @@ const Field* Object::find(std::string_view key) const {
   return nullptr;
 }
 
-void readObject(const Object& object, const Entry& entry, void* target) {
-  const JsonNode& node = entry.node;
-  if (node.type != JsonNode::Type::object)
-    entry.fail(fmt::format("expected an object {{ }} with {}, not {}", joined(keysOf(object)), describe(node)));
-  for (const JsonNode& child : node.children)
-    if (!object.find(child.key)) entry.member(child).fail("unknown key; " + hint(child.key, keysOf(object)));
+namespace {
+
+/// At most one field of each set of alternatives, and one where that is required. An unknown key may be meant as one.
+void checkAlternatives(const Object& object, const Entry& entry, bool all_known) {
   for (const Alternatives& alternatives : object.alternatives) {
     const JsonNode* first = nullptr;
-    for (const JsonNode& child : node.children) {
-      if (object.find(child.key)->alternatives != alternatives.name) continue;
+    for (const JsonNode& child : entry.node.children) {
+      const Field* field = object.find(child.key);
+      if (!field || field->alternatives != alternatives.name) continue;
       if (first) entry.member(child).fail(fmt::format("excludes \"{}\"; give only one of them", first->key));
       first = &child;
     }
-    if (alternatives.required && !first)
+    if (alternatives.required && !first && all_known)
       entry.fail(fmt::format("one of {} is required", joined(keysOf(object, &alternatives.name))));
   }
+}
+
+}  // namespace
+
+void readObject(const Object& object, const Entry& entry, void* target) {
+  const bool whole_file = entry.path.empty();
+  const JsonNode& node = entry.node;
+  if (node.type != JsonNode::Type::object)
+    entry.fail(fmt::format("expected an object {{ }} with {}, not {}", joined(keysOf(object)), describe(node)));
+  Mistakes mistakes;
+  std::set<std::string> meant;  // fields that unknown keys resemble
+  for (const JsonNode& child : node.children) {
+    if (object.find(child.key) || mistakes.full()) continue;
+    const Entry member = entry.member(child);
+    if (whole_file && child.key == "$schema") {
+      mistakes.without([&] { readText(member); });
+      continue;
+    }
+    meant.insert(closest(child.key, keysOf(object)));
+    mistakes.without([&] { member.fail(kUnknownKey + hint(child.key, keysOf(object))); });
+  }
+  mistakes.without([&] { checkAlternatives(object, entry, meant.empty()); });
   for (const Field& field : object.fields) {
     const JsonNode* child = node.find(field.key);
-    if (child)
+    if (!child && (!field.required || meant.contains(field.key))) continue;
+    mistakes.without([&] {
+      if (!child) entry.failAt(field.key, "is required: " + field.doc);
       field.read(entry.member(*child), target);
-    else if (field.required)
-      entry.failAt(field.key, "is required: " + field.doc);
+    });
   }
+  if (whole_file)
+    sayInFile(mistakes, object);
+  else
+    mistakes.say();
   if (object.check) object.check(entry, target);
 }
 
@@ -122,12 +214,12 @@ JsonNode writeObject(const Object& object, const void* source) {
 }
 
 double readNumber(const Entry& entry, const std::string& unit, const Range& range) {
-  double x = 0;
+  Quantity typed{.unit = unit};
   if (entry.node.type == JsonNode::Type::number) {
-    x = entry.node.number;
+    typed.si = entry.node.number;
   } else if (entry.node.type == JsonNode::Type::text) {
     try {
-      x = parseQuantity(entry.node.text, unit);
+      typed = readQuantity(entry.node.text, unit);
     } catch (const InputError& e) {
       entry.fail(e.reason() + "; allowed: " + range.text(unit));
     }
@@ -136,9 +228,11 @@ double readNumber(const Entry& entry, const std::string& unit, const Range& rang
                            unit.empty() ? "" : fmt::format(" in {} or a text with a unit", unit), describe(entry.node),
                            range.text(unit)));
   }
-  if (!std::isfinite(x) || !range.contains(x))
-    entry.fail(fmt::format("{} is out of range; allowed: {}", withUnit(x, unit), range.text(unit)));
-  return x;
+  if (!std::isfinite(typed.si) || !range.contains(typed.si))
+    entry.fail(fmt::format("{} is out of range; allowed: {}",
+                           entry.node.type == JsonNode::Type::text ? entry.node.text : withUnit(typed.si, unit),
+                           rangeText(range, typed)));
+  return typed.si;
 }
 
 int readInteger(const Entry& entry, const Range& range) {

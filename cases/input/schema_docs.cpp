@@ -181,6 +181,11 @@ Json fieldSchema(const Field& f) {
   return s;
 }
 
+/// What a whole file may have under "$schema".
+Json schemaName() {
+  return {{"type", "string"}, {"description", "the JSON Schema of this file, for editors; not read"}};
+}
+
 Json objectSchema(const Object& object) {
   Json s{{"title", object.title}, {"type", "object"}, {"additionalProperties", false}};
   Json required = Json::array();
@@ -253,6 +258,7 @@ std::string toText(const JsonNode& node) { return toJson(node).dump(2); }
 std::string jsonSchema(const Object& root) {
   Json s{{"$schema", "https://json-schema.org/draft/2020-12/schema"}};
   s.update(objectSchema(root));
+  s["properties"]["$schema"] = schemaName();
   return s.dump(2) + "\n";
 }
 
@@ -264,7 +270,9 @@ std::string jsonSchema(const std::vector<KindOfFile>& kinds) {
     words.push_back(k.kind);
     Json is{{"properties", {{"kind", {{"const", k.kind}}}}}};
     if (k.root != kinds.front().root) is["required"] = {"kind"};
-    s["allOf"].push_back({{"if", is}, {"then", objectSchema(*k.root)}});
+    Json then = objectSchema(*k.root);
+    then["properties"]["$schema"] = schemaName();
+    s["allOf"].push_back({{"if", is}, {"then", then}});
   }
   s["properties"]["kind"] = {{"enum", words}};
   return s.dump(2) + "\n";
@@ -277,9 +285,13 @@ const std::string heading =
     "Written by `gambeson check --doc` from the table that reads the cases; do not edit it by hand.\n\n"
     "A number is SI, or a text with a unit: `0.000762` or `\"0.762 mm\"`, `\"57 deg\"`, `\"4 kg/(m^2 s)\"`, `\"6 "
     "%\"`. Units: m g s N Pa\n"
-    "J Hz rad with the prefixes n u m c d k M G, and deg in ft min % gf gsm; products by a space, quotients by `/`, "
-    "powers by `^`. Files\n"
-    "are found relative to the folder of the case. Keys that are not listed here are errors.\n";
+    "J Hz rad tex gf bar with the prefixes n u m c d k M G, and deg ° % min in \" mil ft yd oz lb lbf psi ksi mmHg gsm "
+    "den; products by a\n"
+    "space, `·` or `.`, quotients by `/`, powers by `^`: `\"0.17 gf.cm2/cm\"`, `\"8 oz/yd^2\"`, `\"900 N/5cm\"`. A "
+    "comma is "
+    "the decimal point where it\n"
+    "can be nothing else: `\"0,45 mm\"`. A file may name its schema under `$schema`. Files are\n"
+    "found relative to the folder of the case. Keys that are not listed here are errors.\n";
 
 }  // namespace
 

@@ -1,8 +1,12 @@
 #include "cases/input/table.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <functional>
 
 #include "cases/input/message.hpp"
+#include "cases/input/mistakes.hpp"
 
 namespace gambeson::schema {
 
@@ -47,25 +51,33 @@ JsonNode emptyList() {
   return n;
 }
 
+void readItems(const Entry& list, const std::string& of, const std::function<void(const Entry&)>& read) {
+  if (list.node.type != JsonNode::Type::list)
+    list.fail(fmt::format("expected a list [ ] of {}, not {}", of, describe(list.node)));
+  Mistakes mistakes;
+  for (std::size_t i = 0; i < list.node.children.size(); ++i) mistakes.without([&] { read(list.item(i)); });
+  mistakes.say();
+}
+
 Vec2 readPair(const Entry& entry, const std::string& unit, const Range& range) {
   if (entry.node.type != JsonNode::Type::list || entry.node.children.size() != 2)
     entry.fail("expected a list of two numbers [s, t], not " + describe(entry.node));
-  return {readNumber(entry.item(0), unit, range), readNumber(entry.item(1), unit, range)};
+  const std::vector<double> v = readNumbers(entry, unit, range);
+  return {v[0], v[1]};
 }
 
 std::vector<double> readNumbers(const Entry& entry, const std::string& unit, const Range& range) {
   if (entry.node.type != JsonNode::Type::list) entry.fail("expected a list of numbers, not " + describe(entry.node));
   std::vector<double> values;
-  for (std::size_t i = 0; i < entry.node.children.size(); ++i) values.push_back(readNumber(entry.item(i), unit, range));
+  readItems(entry, "numbers", [&](const Entry& item) { values.push_back(readNumber(item, unit, range)); });
   return values;
 }
 
 Vec3 readVector(const Entry& entry, const std::string& unit, const Range& range) {
   if (entry.node.type != JsonNode::Type::list || entry.node.children.size() != 3)
     entry.fail("expected a list of three numbers [x, y, z], not " + describe(entry.node));
-  Vec3 v;
-  for (int i = 0; i < 3; ++i) v[i] = readNumber(entry.item(static_cast<std::size_t>(i)), unit, range);
-  return v;
+  const std::vector<double> v = readNumbers(entry, unit, range);
+  return {v[0], v[1], v[2]};
 }
 
 Vec3 readDirection(const Entry& entry) {

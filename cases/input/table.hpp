@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -25,6 +26,9 @@ JsonNode nodeOf(const Vec3& v);
 JsonNode nodeOfList(const std::vector<double>& values);
 JsonNode emptyList();
 
+/// Reads each item of a list; of all that are wrong the mistakes are said. `of`: "objects", for the message where it is
+/// no list.
+void readItems(const Entry& list, const std::string& of, const std::function<void(const Entry&)>& read);
 Vec2 readPair(const Entry& entry, const std::string& unit, const Range& range);
 std::vector<double> readNumbers(const Entry& entry, const std::string& unit, const Range& range);
 Vec3 readVector(const Entry& entry, const std::string& unit, const Range& range);
@@ -199,10 +203,9 @@ class Table {
     Field& f = add(key, Kind::list, doc);
     f.object = std::make_shared<const Object>(std::move(table));
     f.read = [get, o = f.object](const Entry& p, void* t) {
-      if (p.node.type != JsonNode::Type::list) p.fail("expected a list [ ] of objects, not " + describe(p.node));
       auto& m = member(get, t);
       m.clear();
-      for (std::size_t i = 0; i < p.node.children.size(); ++i) readObject(*o, p.item(i), &m.emplace_back());
+      readItems(p, "objects", [&](const Entry& item) { readObject(*o, item, &m.emplace_back()); });
     };
     f.write = [get, o = f.object](const void* t) -> std::optional<JsonNode> {
       JsonNode n = emptyList();
@@ -215,10 +218,9 @@ class Table {
   Table& texts(const std::string& key, Get get, const std::string& doc) {
     Field& f = add(key, Kind::text_list, doc);
     f.read = [=](const Entry& p, void* t) {
-      if (p.node.type != JsonNode::Type::list) p.fail("expected a list [ ] of texts, not " + describe(p.node));
       auto& m = member(get, t);
       m.clear();
-      for (std::size_t i = 0; i < p.node.children.size(); ++i) m.push_back(readText(p.item(i)));
+      readItems(p, "texts", [&](const Entry& item) { m.push_back(readText(item)); });
     };
     f.write = [=](const void* t) -> std::optional<JsonNode> {
       JsonNode n = emptyList();

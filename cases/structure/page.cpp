@@ -15,7 +15,9 @@
 #include "analysis/ticks.hpp"
 #include "cases/cloth/fabric_input.hpp"
 #include "cases/cloth/make_cloth.hpp"
+#include "cases/cloth/usual.hpp"
 #include "cases/input/message.hpp"
+#include "cases/structure/fields.hpp"
 #include "cases/structure/results.hpp"
 #include "core/error.hpp"
 #include "core/io/csv_text.hpp"
@@ -196,7 +198,9 @@ std::string contactInWords(const StructureCase& c) {
 }
 
 std::vector<std::string> assumptionsOf(const StructureCase& c) {
-  std::vector<std::string> a{inWords(c.sheet.cloth)};
+  const schema::Object& table = schema::structureTable(c.kind);
+  std::vector<std::string> a = unusualNumbers(table, schema::writeObject(table, &c));
+  a.push_back(inWords(c.sheet.cloth));
   if (std::string own = ownLawsInWords(c.sheet.cloth); !own.empty()) a.push_back(std::move(own));
   const bool linear = c.kind == StructureKind::statics && c.statics.linear;
   a.push_back(linear ? "Small displacements: forces, strains and stress are linear in them."

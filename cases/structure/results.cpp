@@ -7,7 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/cloth/thread_strains.hpp"
+#include "cases/cloth/usual.hpp"
 #include "cases/runs/check_json.hpp"
+#include "cases/structure/fields.hpp"
 #include "cases/structure/run.hpp"
 #include "cases/structure/self_crossings.hpp"
 #include "core/error.hpp"
@@ -114,6 +116,9 @@ void writeStructureSummary(const StructureCase& c, const StructureModel& model, 
          {"kernels", s.cloth->kernels()},
          {"finished", facts.finished}};
   if (!facts.finished) j["why"] = facts.why;
+  const schema::Object& table = schema::structureTable(c.kind);
+  if (const auto unusual = unusualNumbers(table, schema::writeObject(table, &c)); !unusual.empty())
+    j["unusual"] = unusual;
   double area = 0, mass = 0;
   for (const double a : s.area_m2) area += a;
   for (const double m : s.lumped_kg) mass += m;

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "cases/cloth/thread_strains.hpp"
+#include "cases/cloth/usual.hpp"
 #include "cases/input/message.hpp"
 #include "cases/input/overrides.hpp"
 #include "cases/input/wrong_entry.hpp"
@@ -20,6 +21,7 @@
 #include "cases/runs/stop_message.hpp"
 #include "cases/runs/temporary_folder.hpp"
 #include "cases/structure/checks.hpp"
+#include "cases/structure/fields.hpp"
 #include "cases/structure/mover.hpp"
 #include "cases/structure/results.hpp"
 #include "cases/structure/tallies.hpp"
@@ -406,6 +408,8 @@ int runStructure(const StructureCase& c, const RunOptions& options) {
                                : fmt::format("; {} has what was done before", (options.out / "path.csv").string());
   const StopMessage stopped("stopped by a signal" + kept +
                             "; a structure starts from the beginning when it is run again");
+  const schema::Object& table = schema::structureTable(c.kind);
+  for (const std::string& unusual : unusualNumbers(table, schema::writeObject(table, &c))) sayNote(unusual);
   Run run(c, options);
   if (c.kind == StructureKind::statics)
     runStatic(c, run);

@@ -7,7 +7,9 @@
 #include <map>
 #include <set>
 
+#include "cases/input/mistakes.hpp"
 #include "cases/input/table.hpp"
+#include "cases/input/units.hpp"
 #include "cases/study/files.hpp"
 #include "cases/study/input.hpp"
 #include "core/error.hpp"
@@ -97,11 +99,10 @@ void findNumbers(Axis& axis, const JsonNode& values) {
       continue;
     }
     if (v.type != JsonNode::Type::text) return;
-    const char* begin = v.text.c_str();
-    char* end = nullptr;
-    numbers.push_back(std::strtod(begin, &end));
-    if (end == begin) return;
-    units.insert(end);
+    const std::optional<Quantity> typed = anyQuantity(v.text);
+    if (!typed) return;
+    numbers.push_back(typed->value);
+    units.insert(typed->unit);
   }
   if (units.size() != 1) return;
   for (std::size_t i = 0; i < numbers.size(); ++i) axis.levels[i].number = numbers[i];
@@ -260,7 +261,10 @@ class Maker {
       for (const Setting& s : all) overrideValue(root, s.path, s.value, entry_.file);
       v.definition = readAnyCase(root, in_.file);
     } catch (const InputError& e) {
-      throw InputError(e.where(), fmt::format("{} (variant {})", e.reason(), v.label));
+      Mistakes of_variant;
+      for (const InputError& one : mistakesOf(e))
+        of_variant.add(InputError(one.where(), fmt::format("{} (variant {})", one.reason(), v.label)));
+      of_variant.say();
     }
     introduce(v);
     identify(v);

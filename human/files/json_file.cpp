@@ -18,7 +18,7 @@ void JsonFile::checkKeys(const Json& object, const std::string& at, const std::s
   if (!object.is_object()) fail(at, "must be an object");
   const std::string dot = at.empty() ? "" : ".";
   for (const auto& [key, value] : object.items())
-    if (!needed.contains(key) && !optional.contains(key))
+    if (!needed.contains(key) && !optional.contains(key) && !(at.empty() && key == "$schema"))
       fail(std::string(at).append(dot).append(key), "is not known here");
   for (const std::string& key : needed)
     if (!object.contains(key)) fail(std::string(at).append(dot).append(key), "is missing");

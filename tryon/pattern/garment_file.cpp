@@ -41,6 +41,7 @@ struct Node {
     for (const char* name : required)
       if (!json.contains(name)) reject(path(name), "is missing");
     for (const auto& [name, value] : json.items()) {
+      if (key.empty() && name == "$schema") continue;
       const auto is = [&](const char* k) { return name == k; };
       if (std::none_of(required.begin(), required.end(), is) && std::none_of(optional.begin(), optional.end(), is))
         reject(path(name), "unknown key");

@@ -6,6 +6,7 @@
 
 #include "cases/contact/obstacles/kind.hpp"
 #include "cases/input/table.hpp"
+#include "cases/input/typed.hpp"
 
 namespace gambeson {
 namespace schema {
@@ -26,7 +27,8 @@ Object torusTable() {
       .integer("rings", &T::rings, 3, 1000, "pieces around the tube")
       .check([](const Entry& p, const T& t) {
         if (!(t.tube_m < t.radius_m))
-          p.failAt("tube", fmt::format("{} m is out of range; allowed: < radius = {} m", t.tube_m, t.radius_m));
+          p.failAt("tube", fmt::format("{} is out of range; allowed: < radius = {}", inUnitOf(p, "tube", t.tube_m, "m"),
+                                       inUnitOf(p, "tube", t.radius_m, "m")));
       })
       .build();
 }

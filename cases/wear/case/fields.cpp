@@ -188,11 +188,9 @@ Object makeCaseTable() {
       .custom(
           garments,
           [o = garment.object](const Entry& p, C& c) {
-            if (p.node.type != JsonNode::Type::list) p.fail("expected a list [ ] of objects, not " + describe(p.node));
-            if (p.node.children.empty()) p.fail("the list is empty; allowed: at least one garment");
             c.garments.clear();
-            for (std::size_t i = 0; i < p.node.children.size(); ++i)
-              readObject(*o, p.item(i), &c.garments.emplace_back());
+            readItems(p, "objects", [&](const Entry& item) { readObject(*o, item, &c.garments.emplace_back()); });
+            if (c.garments.empty()) p.fail("the list is empty; allowed: at least one garment");
           },
           [o = garment.object](const C& c) -> std::optional<JsonNode> {
             if (c.garments.size() < 2) return std::nullopt;

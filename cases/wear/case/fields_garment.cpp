@@ -104,13 +104,11 @@ Object garmentTable() {
       .custom(
           listOf("other_fabrics", fabricTable(), "what a material field chooses from"),
           [table = fabricTable()](const Entry& p, G& g) {
-            if (p.node.type != JsonNode::Type::list) p.fail("expected a list [ ] of objects, not " + describe(p.node));
-            for (std::size_t i = 0; i < p.node.children.size(); ++i) {
+            readItems(p, "objects", [&](const Entry& item) {
               FabricInput in;
-              const Entry item = p.item(i);
               readObject(table, item, &in);
               g.other_fabrics.push_back(resolveFabric(item, in));
-            }
+            });
           },
           [table = fabricTable()](const G& g) -> std::optional<JsonNode> {
             if (g.other_fabrics.empty()) return std::nullopt;
@@ -126,9 +124,7 @@ Object garmentTable() {
           listOf("fields", fieldsTable(FieldsOf::garment),
                  "thickness, fibre angle and material that vary over its patches; seams keep their springs"),
           [table = fieldsTable(FieldsOf::garment)](const Entry& p, G& g) {
-            if (p.node.type != JsonNode::Type::list) p.fail("expected a list [ ] of objects, not " + describe(p.node));
-            for (std::size_t i = 0; i < p.node.children.size(); ++i)
-              readObject(table, p.item(i), &g.fields.emplace_back());
+            readItems(p, "objects", [&](const Entry& item) { readObject(table, item, &g.fields.emplace_back()); });
           },
           [table = fieldsTable(FieldsOf::garment)](const G& g) -> std::optional<JsonNode> {
             if (g.fields.empty()) return std::nullopt;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cases/input/table.hpp"
+#include "cases/input/typed.hpp"
 #include "cases/runs/picture.hpp"
 #include "cases/wear/case/case.hpp"
 #include "cases/wear/case/fields.hpp"
@@ -25,12 +26,13 @@ Object outputTable() {
               "time between points from which an interrupted run resumes; a multiple of frame")
       .list("pictures", &O::pictures, pictureTable(), "pictures to take")
       .check([](const Entry& p, const O& o) {
+        const auto typed = [&](const char* key, double s) { return inUnitOf(p, key, s, "s"); };
         if (!isMultiple(o.frame_s, o.window_s))
-          p.failAt("frame",
-                   fmt::format("{} s is not a multiple of window = {} s; allowed: a multiple", o.frame_s, o.window_s));
+          p.failAt("frame", fmt::format("{} is not a multiple of window = {}; allowed: a multiple",
+                                        typed("frame", o.frame_s), typed("frame", o.window_s)));
         if (!isMultiple(o.checkpoint_s, o.frame_s))
-          p.failAt("checkpoint", fmt::format("{} s is not a multiple of frame = {} s; allowed: a multiple",
-                                             o.checkpoint_s, o.frame_s));
+          p.failAt("checkpoint", fmt::format("{} is not a multiple of frame = {}; allowed: a multiple",
+                                             typed("checkpoint", o.checkpoint_s), typed("checkpoint", o.frame_s)));
       })
       .build();
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "cases/contact/obstacles/kind.hpp"
+#include "cases/input/mistakes.hpp"
+#include "cases/input/typed.hpp"
 #include "cases/input/wrong_entry.hpp"
 #include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/case/human.hpp"
@@ -62,9 +64,10 @@ void checkLinks(const Entry& root, const Case& c, const Skeleton& skeleton) {
 void checkPictures(const Entry& root, const Case& c, double duration_s) {
   for (std::size_t i = 0; i < c.output.pictures.size(); ++i) {
     const PictureCase& p = c.output.pictures[i];
-    if (p.when == PictureTime::at && !(p.time_s <= duration_s * (1 + 1e-9)))
-      listItem(root.member(*root.node.find("output")), "pictures", i)
-          .failAt("time", fmt::format("{} s is out of range; allowed: 0 to {} s, peak or end", p.time_s, duration_s));
+    if (p.when != PictureTime::at || p.time_s <= duration_s * (1 + 1e-9)) continue;
+    const Entry at = listItem(root.member(*root.node.find("output")), "pictures", i);
+    at.failAt("time", fmt::format("{} is out of range; allowed: 0 to {}, peak or end",
+                                  inUnitOf(at, "time", p.time_s, "s"), inUnitOf(at, "time", duration_s, "s")));
   }
 }
 
@@ -119,19 +122,22 @@ auto locatedAt(const Entry& root, const std::string& key, F&& f) {
 }  // namespace
 
 void checkReferences(const Entry& root, const Case& c) {
+  Mistakes mistakes;
   double duration_s = c.time.duration_s.value_or(0);
-  if (c.human) {
+  const bool human_holds = mistakes.without([&] {
+    if (!c.human) return;
     const Human human = locatedAt(root, "human", [&] { return skeletonOf(*c.human); });
-    checkJoints(root, c, human.skeleton);
-    checkLinks(root, c, human.skeleton);
+    mistakes.without([&] { checkJoints(root, c, human.skeleton); });
+    mistakes.without([&] { checkLinks(root, c, human.skeleton); });
     const double motion_s = locatedAt(root, fmt::format("human.motion.{}", kindOf(*c.human).word),
                                       [&] { return motionDuration(*c.human, human); });
     duration_s = c.time.duration_s.value_or(motion_s);
-  }
+  });
   for (const GarmentCase& g : c.garments)
-    if (kindOf(g).isRead()) checkGarmentFile(root, c, g);
-  for (const ObstacleCase& o : c.obstacles) kindOf(o).check(o);
-  checkPictures(root, c, duration_s);
+    if (kindOf(g).isRead()) mistakes.without([&] { checkGarmentFile(root, c, g); });
+  for (const ObstacleCase& o : c.obstacles) mistakes.without([&] { kindOf(o).check(o); });
+  if (human_holds) mistakes.without([&] { checkPictures(root, c, duration_s); });
+  mistakes.say();
 }
 
 }  // namespace gambeson::schema

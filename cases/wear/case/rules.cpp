@@ -8,6 +8,7 @@
 #include "cases/cloth/membrane_fields.hpp"
 #include "cases/cloth/rules.hpp"
 #include "cases/contact/fields.hpp"
+#include "cases/input/mistakes.hpp"
 #include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/case/motions/kind.hpp"
 #include "cases/wear/case/supports/kind.hpp"
@@ -194,6 +195,12 @@ void checkGarments(const Entry& root, const Case& c) {
   if (common && all_own) root.failAt("fabric", "is of no use: every garment has a fabric of its own");
 }
 
+void requireContact(const Entry& root, const Case& c) {
+  if ((c.human || !c.obstacles.empty() || c.garments.size() > 1) && !root.node.find("contact"))
+    root.failAt("contact",
+                "is required where there is a human, an obstacle or a second garment: at least its friction");
+}
+
 void checkWithoutHuman(const Entry& root, Case& c) {
   if (!c.time.duration_s) failAt(root, {"time", "duration"}, "is required without a human; allowed: > 0 s");
   if (c.air.with_pelvis) failAt(root, {"air", "velocity"}, "\"pelvis_mean\" needs a human, and the case has none");
@@ -302,20 +309,21 @@ void checkFactors(const Entry& root, const Case& c) {
 }  // namespace
 
 void applyRules(const Entry& root, Case& c) {
-  checkFactors(root, c);
-  checkGarments(root, c);
-  if ((c.human || !c.obstacles.empty() || c.garments.size() > 1) && !root.node.find("contact"))
-    root.failAt("contact",
-                "is required where there is a human, an obstacle or a second garment: at least its friction");
-  if (!c.human) checkWithoutHuman(root, c);
-  checkTime(root, c);
-  checkContactMethod(root, c);
-  checkSupports(root, c);
-  checkObstacleNames(root, c.obstacles);
+  Mistakes mistakes;
+  const auto check = [&](auto rule) { return mistakes.without([&] { rule(root, c); }); };
+  check(checkFactors);
+  const bool garments_hold = check(checkGarments);
+  check(requireContact);
+  if (!c.human) check(checkWithoutHuman);
+  check(checkTime);
+  check(checkContactMethod);
+  if (garments_hold) check(checkSupports);
+  mistakes.without([&] { checkObstacleNames(root, c.obstacles); });
   const JsonNode* analysis = root.node.find("analysis");
   if (c.human && !(analysis && analysis->find("task"))) c.analysis.task = kindOf(*c.human).task;
-  checkTask(root, c);
-  checkPictureFields(root, c);
+  check(checkTask);
+  check(checkPictureFields);
+  mistakes.say();
 }
 
 }  // namespace gambeson::schema

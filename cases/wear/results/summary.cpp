@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "cases/cloth/thread_strains.hpp"
+#include "cases/cloth/usual.hpp"
 #include "cases/runs/run_identity.hpp"
+#include "cases/wear/case/fields.hpp"
 #include "cases/wear/results/write.hpp"
 #include "core/io/own_file.hpp"
 
@@ -242,6 +244,10 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
          {"case_hash", identity.case_hash},
          {"kernels", identity.kernels}};
   if (identity.on_device) j["steps_on"] = "device";
+  const Case& written = s.definition;
+  if (const auto unusual = unusualNumbers(schema::caseTable(), schema::writeObject(schema::caseTable(), &written));
+      !unusual.empty())
+    j["unusual"] = unusual;
   j["recorded_from_s"] = s.start_s;
   j["recorded_to_s"] = m.recorded_end_s;
   j["planned_to_s"] = s.end_s;

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cases/cloth/usual.hpp"
 #include "cases/input/wrong_entry.hpp"
 #include "cases/wear/case/factors.hpp"
+#include "cases/wear/case/fields.hpp"
 #include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/scene/bodies.hpp"
 #include "cases/wear/scene/cloth.hpp"
@@ -244,6 +246,9 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, const Only& only) {
   MadeBodies bodies = makeBodies(c);
   Wardrobe wardrobe = makeGarments(c, only, bodies.human ? &*bodies.human : nullptr);
   auto [s, at_start] = assemble(written, c, only, std::move(bodies), std::move(wardrobe));
+  const std::vector<std::string> unusual =
+      unusualNumbers(schema::caseTable(), schema::writeObject(schema::caseTable(), &written));
+  s->notes.insert(s->notes.begin(), unusual.begin(), unusual.end());
   putOnAtStart(c, *s);
   if (isProjected(c)) shrinkBody(c, at_start, *s);
   return std::move(s);

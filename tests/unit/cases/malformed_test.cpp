@@ -53,7 +53,7 @@ TEST(MalformedCase, EachSaysFileLineKeyAndReason) {
           {"{\"walk\": {\"strides\": 1}}", "{\"markers\": {\"path\": \"example.json\"}}", 17, "human.motion",
            "other bodies take markers by \"file\""},
           // Ranges, with the value.
-          {"\"1 mm\"", "\"-1 mm\"", 9, "fabric.thickness", "-0.001 m is out of range; allowed: > 0 and <= 0.05 m"},
+          {"\"1 mm\"", "\"-1 mm\"", 9, "fabric.thickness", "-1 mm is out of range; allowed: > 0 and <= 50 mm"},
           {"\"1 mm\"", "0", 9, "fabric.thickness", "allowed: > 0"},
           {"\"poisson\": 0.3", "\"poisson\": 1", 12, "fabric.poisson", "1 is out of range; allowed: >= 0 and < 1"},
           {"\"friction\": 0.2", "\"friction\": -0.2", 27, "contact.friction", "-0.2 is out of range"},
@@ -68,10 +68,10 @@ TEST(MalformedCase, EachSaysFileLineKeyAndReason) {
           {"\"frame\"", "\"window\": 0.02, \"frame\"", 30, "output.window", "allowed: >= 1e-05 and <= 0.01 s"},
           {"\"0.5 s\"", "\"5 s\"", 32, "output.pictures[1].time", "5 s is out of range; allowed: 0 to 1.6 s"},
           // Units.
-          {"\"1 mm\"", "\"1 kg\"", 9, "fabric.thickness", "wrong unit; expected one like m"},
+          {"\"1 mm\"", "\"1 kg\"", 9, "fabric.thickness", "wrong unit (a mass); expected a length, such as mm, cm or in"},
           {"\"1 mm\"", "\"1\"", 9, "fabric.thickness", "has no unit"},
           {"\"1 mm\"", "\"one mm\"", 9, "fabric.thickness", "does not start with a number"},
-          {"\"45 deg\"", "\"45 degrees\"", 6, "garment.weft_angle", "\"degrees\" is unknown"},
+          {"\"45 deg\"", "\"45 gradians\"", 6, "garment.weft_angle", "\"gradians\" is unknown"},
           {"\"4 kg/(m^2 s)\"", "\"4 kg/(m^2 s\"", 28, "air.drag", "\")\" is missing"},
           {"\"-1 cm\"", "\"-1 s\"", 21, "obstacles[1].plane.point[2]", "wrong unit"},
           // NaN and infinity.
@@ -325,7 +325,7 @@ TEST(MalformedCase, Schemes) {
                           {from, time("\"scheme\": \"rk4\", \"solve_tolerance\": 1e-3"), 27, "time.solve_tolerance",
                            "it goes with implicit_euler and semi_implicit"},
                           {from, time("\"scheme\": \"rk4\", \"audit\": true"), 27, "time.audit", "it goes with verlet"},
-                          {from, time("\"step\": \"-1 ms\""), 27, "time.step", "-0.001 s is out of range"},
+                          {from, time("\"step\": \"-1 ms\""), 27, "time.step", "-1 ms is out of range"},
                           {from, time("\"scheme\": \"rk4\"", limit), 27, "time.scheme", "goes without strain_limit"}});
   expectRefused(replaced(example, "\"rows\": 2", "\"rows\": 2, \"release\": 1"),
                 {{from, time("\"scheme\": \"rk4\""), 27, "time.scheme", "goes without supports that move or let go"}});

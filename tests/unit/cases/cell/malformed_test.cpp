@@ -74,7 +74,7 @@ TEST(MalformedCell, EachSaysFileLineKeyAndReason) {
           {"\"biaxial\": {\"extension\": 0.04}", "\"shear\": {\"shear\": 0.8, \"extension\": -0.3}", 16,
            "loads[0].shear.shear", "allowed: below 1 + extension"},
           {"\"5 1/m\"", "\"4 1/mm\"", 18, "loads[2].bending.curvature", "allowed: below"},
-          {"\"10 deg\"", "\"90 deg\"", 19, "loads[3].trellis.angle", "allowed: >= -1.4"},
+          {"\"10 deg\"", "\"90 deg\"", 19, "loads[3].trellis.angle", "allowed: >= -80.2141 and <= 80.2141 deg"},
           {"\"height\": \"0.64 mm\"", "\"faces\": \"held\"", 18, "loads[2].bending", "do not bend"},
           {"\"height\": \"0.64 mm\"", "\"extent\": \"quarter\"", 18, "loads[2].bending", "allowed with extent full"},
           {"\"height\": \"0.64 mm\"", "\"yarns\": \"truss\"", 22, "solver.pieces_per_spacing", "goes with yarns rod"},

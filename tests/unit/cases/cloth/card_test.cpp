@@ -43,8 +43,8 @@ TEST(Card, RefusesWhatIsWrong) {
       {"\"B\":", "\"B_weft\":", 8, "bending.B_warp", "is required beside B_weft"},
       {"\"B\":", "\"rigidity\":", 9, "bending.rigidity", "unknown key"},
       {"    \"2HB_at\": \"1 1/cm\",\n", "", 8, "bending.2HB_at", "is required with 2HB"},
-      {"\"1 1/cm\"", "\"2.5 1/cm\"", 11, "bending.2HB_at", "< 250 1/m"},
-      {"\"0.6 1/cm\"", "\"2.6 1/cm\"", 12, "bending.K0", "<= 250 1/m"},
+      {"\"1 1/cm\"", "\"2.5 1/cm\"", 11, "bending.2HB_at", "< 2.5 1/cm"},
+      {"\"0.6 1/cm\"", "\"2.6 1/cm\"", 12, "bending.K0", "<= 2.5 1/cm"},
       {"\"0.6 1/cm\"", "\"0 1/cm\"", 12, "bending.K0", "> 0"},
       {"\"0.139 gf cm/cm\"", "\"-0.139 gf cm/cm\"", 10, "bending.2HB", "> 0"},
       {"    \"2HB\": \"0.139 gf cm/cm\",\n", "", 10, "bending.2HB_at", "no meaning without 2HB"},
@@ -52,7 +52,7 @@ TEST(Card, RefusesWhatIsWrong) {
       {"\"0.139 gf cm/cm\",\n    \"2HB_at\": \"1 1/cm\",\n    \"K0\": \"0.6 1/cm\"",
        "\"0.8 gf cm/cm\",\n    \"2HB_at\": \"1 1/cm\",\n    \"K0\": \"2.4 1/cm\"", 10, "bending.2HB",
        "allowed: at most"},
-      {"\"EMT\": \"5.515 %\"", "\"EMT\": \"60 %\"", 6, "tensile.EMT", "<= 0.5"},
+      {"\"EMT\": \"5.515 %\"", "\"EMT\": \"60 %\"", 6, "tensile.EMT", "<= 50 %"},
       {"\"EMT\": \"5.515 %\", ", "", 6, "tensile.EMT", "is required, or modulus"},
       {"\"LT\": 0.712", "\"LT\": 2", 6, "tensile.LT", "<= 1.9"},
       {"\"poisson\": 0.1", "\"poisson\": 1", 6, "tensile.poisson", "< 1"},
@@ -62,7 +62,7 @@ TEST(Card, RefusesWhatIsWrong) {
       {"7.412 gf/cm", "4.9 gf/cm", 7, "shear.2HG5", "out of range; allowed beside 2HG"},
       {"2.18 gf/(cm deg)", "0.2 gf/(cm deg)", 7, "shear.2HG", "what friction alone gives it"},
       {"  \"thickness\": \"1.066 mm\",\n  \"weight\": \"430 g/m^2\",\n", "", 1, "thickness", "is required, or weight"},
-      {"\"430 g/m^2\"", "\"0 g/m^2\"", 5, "weight", ">= 0.0001"},
+      {"\"430 g/m^2\"", "\"0 g/m^2\"", 5, "weight", ">= 0.1 and <= 10000 g/m^2"},
       {"\"MIU\": 0.18", "\"MIU\": 1.8e3", 14, "MIU", "<= 2"},
       {"\"source\"", "\"sauce\"", 3, "sauce", "did you mean \"source\"?"}};
   for (const Bad& c : cases) {
