@@ -58,6 +58,7 @@ ContactParameters contactOf(const ContactCase& c, double g, std::span<const Obst
   p.on_cloth = c.friction_cloth;
   p.method = c.method;
   p.penalty_Pa_per_m = c.penalty_Pa_per_m;
+  p.newton = c.newton;
   p.of_obstacle.resize(bodies);
   for (const ObstacleCase& o : obstacles) p.of_obstacle.push_back(o.friction);
   return p;

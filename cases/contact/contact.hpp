@@ -76,6 +76,7 @@ struct ContactCase {
   int max_iterations = 8000;
   ContactMethod method = ContactMethod::together;
   double penalty_Pa_per_m = 0;  ///< of ContactMethod::penalty
+  bool newton = false;          ///< ContactParameters::newton
 };
 
 /// "Coulomb friction 0.3, the same for sticking and sliding".

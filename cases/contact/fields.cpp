@@ -207,6 +207,11 @@ Object contactTable() {
               "residual velocity to which the contacts of a step are solved together, as a part of what gravity adds "
               "in the step; in folds that are jammed 1e-6 of the largest impulse counts, up to ten times this")
       .integer("max_iterations", &C::max_iterations, 1, 100000, "iterations before a step counts as failed")
+      .flag(
+          "newton", &C::newton,
+          "contacts that sweeps over them have not solved for long go on by Newton's method: for cloth that is pulled "
+          "tight over a body (a cord, a stiff sleeve), whose friction sweeps settle slowly or not at all")
+      .unwritten()
       .choice("method", &C::method, contactMethods(), contactMethodDoc())
       .unwritten()
       .number("penalty", &C::penalty_Pa_per_m, "Pa/m", aboveTo(0, 1e12),

@@ -20,4 +20,23 @@ inline V4& quad(Quad& q) { return *reinterpret_cast<V4*>(&q); }
 inline Vec3 vec(const Quad& q) { return {q.lane[0], q.lane[1], q.lane[2]}; }
 inline Quad quadOf(const Vec3& v, double mark = 0) { return {{v.x, v.y, v.z, mark}}; }
 
+/// Relative velocity of a row at w.moved.
+inline Vec3 velocityOf(const ContactWork& w, int row) {
+  V4 part0{}, part1{}, part2{}, part3{};
+  const int* column = w.points.columns.data() + w.points.offsets[row];
+  const double *value = w.points.values.data() + w.points.offsets[row],
+               *end = w.points.values.data() + w.points.offsets[row + 1];
+  for (; value + kWays <= end; value += kWays, column += kWays) {
+    part0 += value[0] * quad(w.moved[column[0]]);
+    part1 += value[1] * quad(w.moved[column[1]]);
+    part2 += value[2] * quad(w.moved[column[2]]);
+    part3 += value[3] * quad(w.moved[column[3]]);
+  }
+  if (value < end) part0 += value[0] * quad(w.moved[column[0]]);
+  if (value + 1 < end) part1 += value[1] * quad(w.moved[column[1]]);
+  if (value + 2 < end) part2 += value[2] * quad(w.moved[column[2]]);
+  const V4 sum = (part0 + part1) + (part2 + part3);
+  return {sum[0], sum[1], sum[2]};
+}
+
 }  // namespace gambeson

@@ -7,6 +7,7 @@
 #include "core/contact/contact_rows.hpp"
 #include "core/contact/held_iteration.hpp"
 #include "core/contact/iteration_lanes.hpp"
+#include "core/contact/newton_rows.hpp"
 #include "core/contact/row_sweep.hpp"
 #include "core/math/parallel.hpp"
 
@@ -25,6 +26,7 @@ double beyondImpact(double pressure_Pa, double dt, double density) {
 
 constexpr double kOfLargestHeld = 2e-4;  ///< of the largest impulse, with a hold that bears tension
 constexpr int kFollows = 40;             ///< rounds in which friction follows the motion; a few are the rule
+constexpr int kSweepsBeforeNewton = 320;
 constexpr double kStill = 4;             ///< goals; what sticks is as slow as that
 
 /// What one solve is given.
@@ -217,6 +219,7 @@ ContactSolve solve(const Problem& p, double goal, int max_iterations, ContactWor
   int follows = 0;
   for (int check = std::min(kFirstCheck, max_iterations);; check = std::min(2 * check, max_iterations)) {
     iterate(goal, check, max_iterations, w);
+    if (p.parameters.newton && !w.hold && check >= kSweepsBeforeNewton) finishByNewton(goal, w);
     for (std::size_t f = 0; f < w.free_points.size(); ++f) w.now[w.free_points[f]] = vec(w.moved[f]);
     report.residual_m_per_s = leftOut(p, w);
     report.converged = report.residual_m_per_s <= goal;

@@ -35,6 +35,7 @@ struct ContactParameters {
   std::vector<int> garment_of_sample = {};  ///< where garments have their own
   ContactMethod method = ContactMethod::together;
   double penalty_Pa_per_m = 0;  ///< eps_N of ContactMethod::penalty
+  bool newton = false;          ///< islands that sweeps have not solved for long go on by newton_rows.hpp
 
   const FrictionLaw& frictionOf(const ContactRow& row) const;
   /// Whether any friction is more than Coulomb's.

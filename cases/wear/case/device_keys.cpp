@@ -28,6 +28,8 @@ class Refusals {
     if (case_.contact.friction_cloth) lookAtFriction("contact.friction_cloth", *case_.contact.friction_cloth);
     if (case_.contact.method != ContactMethod::together)
       refuse("contact.method", "methods of contact of their own are not carried by", "\"together\"");
+    if (case_.contact.newton)
+      refuse("contact.newton", "Newton's method for contacts is not carried by", "false");
     if (case_.strain_limit) refuse("strain_limit", "limits of strain are not carried by", "none, and stiffer threads");
     if (case_.time.motion.scheme != MotionScheme::verlet)
       refuse("time.scheme", "other schemes than velocity Verlet are not carried by", "\"verlet\"");

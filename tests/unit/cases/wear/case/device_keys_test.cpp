@@ -152,6 +152,7 @@ const std::vector<Refused> refused{
      "supports[0].patch.drive"},
     {"Support", "cord", R"(supports=[{"cord": {"edge": "u0"}}])", "supports[0].cord"},
     {"Contact", "method", "contact.method=forward_increment", "contact.method"},
+    {"Contact", "newton", "contact.newton=true", "contact.newton"},
     {"Time", "scheme", "time.scheme=rk4", "time.scheme"},
     {"Time", "audit", "time.audit=true", "time.audit"},
 };
