@@ -1,4 +1,4 @@
-/// Detail of ../cad/module.hpp: the library's entry, and OpenCASCADE's exceptions as ours.
+/// Detail of read.hpp: the entry of the library (cases/cad/module.hpp), and the exceptions of OpenCASCADE as ours.
 
 #include "cases/cad/module.hpp"
 

@@ -89,6 +89,12 @@ Human scanOf(const TriangleMesh& raw, const ScanOptions& o, ScanReport* report) 
   return human;
 }
 
-Human loadScan(const ScanOptions& o, ScanReport* report) { return scanOf(loadTriangles(o.file), o, report); }
+Human loadScan(const ScanOptions& o, ScanReport* report) {
+  constexpr double kUnknownUnit =
+      1e-3;  // a body in millimetres goes beyond the coordinates that a mesh in metres may have
+  TriangleMesh mesh = loadTriangles(o.file, kUnknownUnit);
+  for (Vec3& x : mesh.vertices) x *= 1 / kUnknownUnit;
+  return scanOf(mesh, o, report);
+}
 
 }  // namespace gambeson

@@ -199,7 +199,7 @@ TEST(ShearLoopInput, RefusesWhatIsWrong) {
                        {"\"hysteresis\": 4.9", "\"rise\": 3, \"hysteresis\": 4.9", 11, "fabric.shear_loop.rise", "excludes"},
                        {"\"hysteresis_5\": 7.2", "\"growth\": 7.2", 11, "fabric.shear_loop.growth", "goes with rise"},
                        {"\"hysteresis_5\": 7.2", "\"hysteresis_5\": 4", 11, "fabric.shear_loop.hysteresis_5", "allowed"},
-                       {"\"hysteresis_5\": 7.2", "\"friction_angle\": \"9 deg\"", 11, "fabric.shear_loop.friction_angle", "<= 0.14"},
+                       {"\"hysteresis_5\": 7.2", "\"friction_angle\": \"9 deg\"", 11, "fabric.shear_loop.friction_angle", "<= 8.02141 deg"},
                        {"\"hysteresis\": 4.9", "\"hysteresis\": 300", 11, "fabric.shear_loop.hysteresis_5", "out of range"}});
 }
 

@@ -93,7 +93,7 @@ TEST(GarmentCode, SaysWhatIsWrongAndWhere) {
   expectSaid(broken("\"panel\": \"back\", \"edge\": 3", "\"panel\": \"back\", \"edge\": 1"), "sewn already");
   expectSaid(broken("\"units_in_meter\": 100", "\"units_in_meter\": 1"), "Is the unit right?");
   expectSaid(refusal(folder.write("other.json", "{\"a\": 1}")), "has neither pattern.panels");
-  expectSaid(refusal(folder.write("other.step", "ISO-10303-21;")), "of no format that is read");
+  expectSaid(refusal(folder.write("other.zprj", "ISO-10303-21;")), "of no format that is read");
   ImportChoices choices;
   choices.unit = "kg";
   expectSaid(refusal(folder.write("g.json", kGarmentCode), choices), "no unit of length");

@@ -14,7 +14,7 @@
 namespace gambeson {
 namespace {
 
-constexpr double rho = 0.436, dt = 1.5e-4, goal = 0.1 * dt;
+constexpr double rho = 0.436, step_s = 1.5e-4, goal = 0.1 * step_s;
 
 /// A belt of quadratic patches around a round body, points in two rows, three samples a cell, each of which a belt's
 /// tension presses with thousands of times its weight. Every seventh sample touches a second body beside the first.
@@ -70,13 +70,13 @@ struct Belt {
     std::vector<Vec3> velocity, traction;
   };
   Answer solve(bool newton, int most) const {
-    ContactParameters parameters{1e-3, 0.3, 0.01, goal / dt, most};
+    ContactParameters parameters{1e-3, 0.3, 0.01, goal / step_s, most};
     parameters.newton = newton;
     Answer a{{}, velocity, std::vector<Vec3>(rows.size())};
     std::vector<Vec3> impulses;
     ContactWork work;
-    a.report = solveContacts(rows, W, inverse_mass, area, density, {}, parameters, dt, a.velocity, a.traction, impulses,
-                             work);
+    a.report = solveContacts(rows, W, inverse_mass, area, density, {}, parameters, step_s, a.velocity, a.traction,
+                             impulses, work);
     return a;
   }
 

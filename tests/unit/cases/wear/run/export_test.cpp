@@ -154,7 +154,7 @@ TEST_F(Export, WhatCannotBeWrittenIsSaid) {
   EXPECT_EQ(command({"export", results_.c_str(), "--iges", "x.igs", "--time", "noon"}, &error), 2);
   EXPECT_NE(error.find("time"), std::string::npos) << error;
   EXPECT_EQ(command({"export", results_.c_str(), "-o", "walk.mp4"}, &error), 2);
-  EXPECT_NE(error.find("allowed: a name that ends in .glb, .obj, .igs or .iges"), std::string::npos) << error;
+  EXPECT_NE(error.find("allowed: a name that ends in .glb, .obj, .igs, .iges, .step or .stp"), std::string::npos) << error;
   EXPECT_EQ(command({"export", results_.c_str(), "-o", "a.igs", "--iges", "b.igs"}, &error), 2);
   EXPECT_NE(error.find("second file of its format"), std::string::npos) << error;
   EXPECT_EQ(command({"export", results_.c_str(), "--iges", "/nowhere/at/all/x.igs"}, &error), 2);

@@ -209,7 +209,7 @@ TEST_F(TriangleCase, RefusesWhatItCannotBe) {
   EXPECT_EQ(refusal(caseOf(file)), "");
   EXPECT_NE(refusal(caseOf(file + ", \"model\": \"nurbs\"")).find("model"), std::string::npos);
   EXPECT_NE(refusal(caseOf(file + ", \"noise\": \"11 cm\""))
-                .find("case.json:1: garment.noise: 0.11 m is out of range; allowed: >= 0 and <= 0.1 m"),
+                .find("case.json:1: garment.noise: 11 cm is out of range; allowed: >= 0 and <= 10 cm"),
             std::string::npos);
   EXPECT_NE(refusal(caseOf("\"mesh_file\": {\"path\": \"square.obj\", \"rest\": \"uv\"}")).find("uv"),
             std::string::npos);
