@@ -1,5 +1,7 @@
 #include "tryon/pattern/leg_form.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/error.hpp"
@@ -18,9 +20,9 @@ LegForm::LegForm(const BodyForm& form, double crotch_z, double hem_z)
   const Links leg = form.links({"thigh_left", "shank_left", "foot_left"}, kGarment);
   const Vec3 knee = form.origin(leg[1]), ankle = form.origin(leg[2]);
   if (!(hem_z > ankle.z))
-    throw InputError({"", 0, "inseam_m"}, std::to_string(crotch_z - hem_z) +
-                                              ", reaches below the ankle, where the legs end; " +
-                                              "allowed: less than " + std::to_string(crotch_z - ankle.z));
+    throw InputError({"", 0, "inseam_m"},
+                     fmt::format("{:.4g} m, reaches below the ankle, where the legs end; allowed: less than {:.4g} m",
+                                 crotch_z - hem_z, crotch_z - ankle.z));
   const Vec3 shank = knee - ankle;
   if (shank.z > 0) lean_ = {shank.x / shank.z, shank.y / shank.z};
   std::vector<std::vector<Vec2>> hulls;
