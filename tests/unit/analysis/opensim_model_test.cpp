@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 #include <tinyxml.h>
 
-#include <fstream>
 #include <limits>
 #include <map>
 #include <random>
@@ -16,6 +15,7 @@
 #include "human/manikin/manikin.hpp"
 #include "human/motion/walk.hpp"
 #include "human/recorded/storage.hpp"
+#include "unit/human/files/files.hpp"
 
 namespace gambeson {
 namespace {
@@ -110,11 +110,8 @@ std::map<std::string, double> rowOf(const StorageTable& t, std::size_t k) {
 }
 
 StorageTable readBack(const Skeleton& s, const std::vector<double>& times, const std::vector<Posture>& postures) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "gambeson_opensim_model_test.mot";
-  std::ofstream(file) << openSimMotion(file.filename().string(), s, times, postures);
-  StorageTable table = readStorage(file);
-  std::filesystem::remove(file);
-  return table;
+  const test::Folder folder;
+  return readStorage(folder.write("walk.mot", openSimMotion("walk.mot", s, times, postures)));
 }
 
 /// Largest distance of a point 0.1 m off a link's origin from where we have it, over all links.
