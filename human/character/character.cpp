@@ -294,7 +294,7 @@ class Fit {
         const Joint& mine = human_.skeleton.joints[j];
         const bool limb = link.name.starts_with("thigh") || link.name.starts_with("shank") ||
                           link.name.starts_with("upper_arm") || link.name.starts_with("forearm");
-        if (limb && mine.parent == static_cast<int>(l))
+        if (limb && link.mass_kg > 0 && mine.parent == static_cast<int>(l))
           longer = norm(mine.X_PJ.origin) / norm(like.skeleton.joints[j].X_PJ.origin);
       }
       link.center_of_mass *= longer;

@@ -71,7 +71,8 @@ std::optional<LegAngles> reach(const Human& human, const Leg& leg, const Pose& p
   const double forward = dot(way, plane.a), down = -dot(way, plane.c);
   const Link2 thigh(leg.knee_T), shank(leg.ankle_S);
   const double a = thigh.length, b = shank.length;
-  const double cosine = (forward * forward + down * down - a * a - b * b) / (2 * a * b);
+  const double sideways = leg.knee_T.y + leg.ankle_S.y;  // of bones that lean; the foot is off by as much
+  const double cosine = (forward * forward + down * down - sideways * sideways - a * a - b * b) / (2 * a * b);
   if (!(cosine <= 1 + 1e-12 && cosine >= -1)) return std::nullopt;
   const double bend = std::acos(std::min(cosine, 1.0));
   const double turned = std::atan2(forward, down) + std::atan2(b * std::sin(bend), a + b * std::cos(bend)) -

@@ -34,7 +34,8 @@ Mat3 footRotation(const Vec3& hip_W, const Vec3& ankle_W, double pitch);
 
 /// The angles with which the ankle is at `ankle_W` and the foot has footRotation, the knee bent forward; none where the
 /// leg is too short. Thigh and shank as two links in the plane: cosine rule. Exact for legs whose knee and ankle turn
-/// about y and whose centres lie in the plane y = 0 of thigh and shank.
+/// about y and whose centres lie in the plane y = 0 of thigh and shank; where bones lean out of that plane, as those of
+/// characters do by millimetres, the foot is as far beside `ankle_W` as they do.
 std::optional<LegAngles> reach(const Human& human, const Leg& leg, const Pose& pelvis, const Vec3& ankle_W,
                                double pitch);
 

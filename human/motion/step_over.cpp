@@ -115,10 +115,11 @@ struct TooHigh {
 
 class StepOver final : public Motion {
  public:
-  /// Throws TooHigh.
-  StepOver(const Human& human, const StepOverOptions& options)
+  /// `steps`: their length on the level, over that of our men. Throws TooHigh.
+  StepOver(const Human& human, const StepOverOptions& options, double steps)
       : human_(human),
         options_(options),
+        step_(steps * step),
         curves_(naturalWalk()),
         standing_(standing(human_)),
         legs_{legOf(human_, "right", "stepping over an obstacle"), legOf(human_, "left", "stepping over an obstacle")} {
@@ -183,7 +184,7 @@ class StepOver final : public Motion {
         hurdle_ = {toes + s.to + toes_before * L, options_.depth_m, options_.height_m};
         s.to += 2 * half + (toes_before + heel_beyond) * L + options_.depth_m;
       } else if (k + 1 < count) {
-        s.to += step * L;
+        s.to += step_ * L;
       }
       const double T = strideTime(s);
       s.begin = k > 0 ? t + double_support * T : t;
@@ -451,6 +452,7 @@ class StepOver final : public Motion {
 
   Human human_;
   StepOverOptions options_;
+  double step_;  ///< on the level, from foot to foot, over the length of the leg
   WalkCurves curves_;
   Posture standing_;
   std::array<Leg, 2> legs_;               ///< right, left; feet point into human_
@@ -467,30 +469,42 @@ class StepOver final : public Motion {
   std::array<std::array<HermitePath<double>, 5>, 2> path_;
 };
 
+constexpr double lowest_m = 0.05;  ///< that options may have
+
 /// The largest height that the body steps over [m], to a centimetre; none where it is below what options may have.
-std::optional<double> largestHeight(const Human& human, StepOverOptions o) {
+std::optional<double> largestHeight(const Human& human, StepOverOptions o, double steps) {
   double lo = 0, hi = o.height_m;
   while (hi - lo > 0.01) {
-    o.height_m = std::max(0.05, 0.5 * (lo + hi));
+    o.height_m = std::max(lowest_m, 0.5 * (lo + hi));
     try {
-      const StepOver possible(human, o);
+      const StepOver possible(human, o, steps);
       lo = o.height_m;
     } catch (const TooHigh&) {
-      if (o.height_m == 0.05) return std::nullopt;
+      if (o.height_m == lowest_m) return std::nullopt;
       hi = o.height_m;
     }
   }
   return lo;
 }
 
-std::unique_ptr<StepOver> stepOver(const Human& human, const StepOverOptions& o) try {
-  return std::make_unique<StepOver>(human, o);
-} catch (const TooHigh& e) {
-  const std::optional<double> largest = largestHeight(human, o);
-  throw InputError({"", 0, "height"},
-                   fmt::format("{} m is not allowed for this body: {}; allowed: {}", o.height_m, e.why,
-                               largest ? fmt::format("up to {:.2f} m", std::floor(100 * *largest) / 100)
-                                       : "another body, of longer legs"));
+/// A body whose ankles or knees do not bear the steps of our men takes shorter ones, the longest with which it steps
+/// over anything.
+std::unique_ptr<StepOver> stepOver(const Human& human, const StepOverOptions& o) {
+  std::string why;
+  for (const double steps : {1.0, 0.95, 0.9, 0.85, 0.8, 0.7, 0.6}) {
+    try {
+      return std::make_unique<StepOver>(human, o, steps);
+    } catch (const TooHigh& e) {
+      if (why.empty()) why = e.why;
+      if (const std::optional<double> largest = largestHeight(human, o, steps))
+        throw InputError({"", 0, "height"},
+                         fmt::format("{} m is not allowed for this body: {}; allowed: up to {:.2f} m", o.height_m,
+                                     e.why, std::floor(100 * *largest) / 100));
+    }
+  }
+  throw InputError({"", 0, "height"}, fmt::format("{} m is not allowed for this body: {}; allowed: another body, of "
+                                                  "longer legs",
+                                                  o.height_m, why));
 }
 
 }  // namespace

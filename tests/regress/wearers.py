@@ -84,8 +84,10 @@ def wearers(walk):
     if BODY.exists():
         for name, character in CHARACTERS.items():
             out[name] = {"character": character, "motion": STAND}
+            # The quaternius man's thighs clear 0.26 m.
+            lower = {"trousers_step_over": {"step_over": {"height": "0.25 m"}}}
             out |= {f"{name}_{task}": {"character": {**character, "switch_off_folds": True}, "motion": motion}
-                    for task, motion in TROUSERS.items()}
+                    for task, motion in (TROUSERS | lower).items()}
             if walk:
                 out[name + "_walks"] = {"character": character, "motion": {"walk": {"strides": 1}}}
                 out[name + "_climbs"] = {"character": {**character, "switch_off_folds": True},

@@ -11,6 +11,7 @@
 #include "core/contact/mesh_topology.hpp"
 #include "core/error.hpp"
 #include "human/files/mesh.hpp"
+#include "human/manikin/manikin.hpp"
 #include "human/motion/standing.hpp"
 #include "human/motion/walk.hpp"
 #include "human/skeleton/joint_map.hpp"
@@ -55,6 +56,13 @@ TEST(Character, ComesBackFromItsFile) {
     for (std::size_t j = 0; j < h.skeleton.joints.size(); ++j)
       EXPECT_LT(norm(h.skeleton.joints[j].X_PJ.origin - c.human.skeleton.joints[j].X_PJ.origin), 1e-6)
           << h.skeleton.joints[j].name;
+    // Centres of mass too, in trunk, head, hands and feet by stature alone.
+    const double taller = h.stature_m / makeManikin("male_p50").stature_m;
+    for (std::size_t l = 0; l < h.skeleton.links.size(); ++l) {
+      const Link &mine = h.skeleton.links[l], &its = c.human.skeleton.links[l];
+      EXPECT_LT(norm(mine.center_of_mass - its.center_of_mass), 1e-6 + std::abs(taller - 1) * norm(its.center_of_mass))
+          << mine.name;
+    }
     for (std::size_t v = 0; v + 1 < s.first.size(); ++v) {
       double sum = 0;
       for (int i = s.first[v]; i < s.first[v + 1]; ++i) sum += s.weight[i];

@@ -65,6 +65,19 @@ TEST(Leg, IsNoLongerThanItIs) {
   EXPECT_NEAR((*q)[3], 0.6, 0.02);  // two links of nearly the same length
 }
 
+// Bones that lean sideways by a millimetre: the straight leg reaches its own ankle, and the foot is beside it by that.
+TEST(Leg, BonesMayLean) {
+  Legged h;
+  for (Joint& joint : h.human.skeleton.joints)
+    if (joint.name == "ankle_flexion_left") joint.X_PJ.origin.y = 1e-3;
+  const Leg leg = legOf(h.human, "left", "a test");
+  const Vec3 ankle = h.footLink(leg).origin;
+  const auto q = reach(h.human, leg, h.posture.root, ankle, 0);
+  ASSERT_TRUE(q);
+  leg.set(*q, h.posture);
+  EXPECT_LT(norm(h.footLink(leg).origin - ankle), 1.1e-3);
+}
+
 TEST(Leg, NeedsItsJoints) {
   Human h = makeManikin("male_p5");
   for (const char* joint : {"hip_flexion_left", "hip_rotation_left", "knee_flexion_left", "ankle_flexion_left"}) {

@@ -11,6 +11,7 @@
 #include "human/files/units.hpp"
 #include "human/manikin/manikin.hpp"
 #include "human/motion/foot_report.hpp"
+#include "human/motion/leg.hpp"
 #include "human/motion/standing.hpp"
 #include "unit/human/manikin/clearance.hpp"
 
@@ -272,6 +273,41 @@ TEST(StepOver, SaysTheLargestHeight) {
     EXPECT_LT(o.height_m, 0.5);
     EXPECT_NO_THROW(makeStepOver(human, o));
   }
+}
+
+// Ankles that bend less than our men's would not bear their steps.
+TEST(StepOver, StiffAnklesTakeShorterSteps) {
+  Human human = makeManikin("male_p50");
+  for (Joint& joint : human.skeleton.joints)
+    if (joint.name.starts_with("ankle_flexion")) joint.upper = 26 * rad_per_deg;
+  StepOverOptions options;
+  options.height_m = 0.15;
+  Hurdle hurdle;
+  const auto motion = makeStepOver(human, options, &hurdle);
+  const auto poses = [&](double t) {
+    const Posture p = motion->at(t);
+    return linkPoses(human.skeleton, p.q, p.root);
+  };
+  double gap = 1;
+  for (double t = 0; t < motion->duration(); t += 0.01) {
+    const std::vector<Pose> X = poses(t);
+    for (const std::string side : {"right", "left"}) {
+      const BodyShape& foot = footOf(human, side, "");
+      gap = std::min(gap, gapToHurdle(foot.shape, X[static_cast<std::size_t>(foot.link)] * foot.X_LS, hurdle));
+    }
+    for (std::size_t j = 0; j < human.skeleton.joints.size(); ++j) {
+      const Joint& joint = human.skeleton.joints[j];
+      const double q = motion->at(t).q[j];
+      EXPECT_TRUE(q > joint.lower - 1e-6 && q < joint.upper + 1e-6) << joint.name << " at " << t;
+    }
+  }
+  EXPECT_GT(gap, options.clearance_m);
+  const auto wayOf = [&](const Human& h, const Motion& m) {
+    const double leg = legOf(h, "left", "").length_m();
+    return (m.at(m.duration()).root.origin.x - m.at(0).root.origin.x) / leg;
+  };
+  const Human man = makeManikin("male_p50");
+  EXPECT_LT(wayOf(human, *motion), 0.99 * wayOf(man, *makeStepOver(man, options, nullptr)));
 }
 
 TEST(StepOver, RefusesNonsense) {
