@@ -194,9 +194,10 @@ State sewnAround(const Scenario& s) {
                     fitText(s, state).empty() ? "" : ". It does not fit: ", fitText(s, state)));
   if (const std::string fit = fitText(s, state); !fit.empty())
     sayNote(fmt::format("garment \"{}\" does not fit: {}", s.wardrobe.drafts[0].name, fit));
-  if (closed_s < 0) {
+  if (closed_s < 0) {  // a time that others have not seen: what steps keep of the way before does not go on
     state.time_s = closed_s;
-    integrator->advance(0, state, nobody);
+    StepWork fresh;
+    makeIntegrator(time.motion, m, *s.stage, time.control(), frequency, fresh)->advance(0, state, nobody);
   }
   return state;
 }
