@@ -64,8 +64,8 @@ VEST = {
     **{key: value for key, value in CASE.items() if key != "obstacles"},
     "name": "a vest of two panels on a woman",
     "garment": {"pattern": {"path": "tube.json", "cell": "40 mm", "close_within": "2 s"}},
-    "human": {"manikin": "female_p50", "motion": {"stand": {"duration": "0.05 s"}}},
-    "dressing": {"layer_by_layer": True, "settle": "0.15 s"},
+    "human": {"manikin": "female_p50", "motion": {"stand": {"duration": "0.1 s"}}},
+    "dressing": {"layer_by_layer": True, "settle": "0.2 s"},
 }
 
 
