@@ -5,8 +5,8 @@
 
 One that fits closes, crosses nothing and passes all checks of its run; one that is too narrow is worn too, and said to be
 short, by what the ball is wider; seams that have no time to close end the run by name; what is wrong in a pattern is said
-with file, panel and seam. Panels with armholes and necklines, whose corners trimming leaves slivers of, close over the
-shoulders, hang and cross nothing.
+with file, panel and seam. Panels with armholes and necklines, whose corners trimming leaves slivers of, start below the
+shoulders that they close over, hang and cross nothing.
 """
 
 import json
@@ -51,7 +51,7 @@ def vest():
                    {"name": "armhole", "start": [-0.17, 0.565], "bezier": [[-0.16, 0.40], [-0.19, 0.26]]},
                    {"start": [-0.26, 0.24]}]
         return {"name": name, "outline": outline,
-                "placement": {"origin": [sign * 0.2, 0, 0.86], "along_x": [0, sign, 0], "along_y": [0, 0, 1]}}
+                "placement": {"origin": [sign * 0.2, 0, 0.78], "along_x": [0, sign, 0], "along_y": [0, 0, 1]}}
 
     return {"format": "gambeson pattern 1", "name": "vest", "panels": [panel("front", 1, 0.46), panel("back", -1, 0.56)],
             "seams": [{"name": "left side", "a": ["front.1"], "b": ["back.7 reversed"]},
