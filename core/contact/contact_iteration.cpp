@@ -7,6 +7,7 @@
 
 #include "core/contact/held_iteration.hpp"
 #include "core/contact/iteration_lanes.hpp"
+#include "core/contact/projecting_hold.hpp"
 
 namespace gambeson {
 namespace {
@@ -82,6 +83,19 @@ struct Alone {
     visit(island.free_point, island.free_end);
   }
   void wait() const {}
+  void start(ContactWork&) const {}
+  void finish(ContactWork&) const {}
+};
+/// With a hold that projects, which takes its part of what each sweep has changed.
+struct Held : Alone {
+  mutable std::vector<Quad> swept_from;  ///< of the free points
+  void start(ContactWork& w) const { swept_from = w.moved; }
+  void finish(ContactWork& w) const {
+    w.change.resize(w.free_points.size());
+    for (std::size_t f = 0; f < w.free_points.size(); ++f) w.change[f] = vec(w.moved[f]) - vec(swept_from[f]);
+    w.hold->holdTouched(w.change);
+    for (std::size_t f = 0; f < w.free_points.size(); ++f) w.moved[f] = quadOf(vec(swept_from[f]) + w.change[f]);
+  }
 };
 struct Together {
   template <class Visit>
@@ -101,6 +115,8 @@ struct Together {
   void wait() const {
 #pragma omp barrier
   }
+  void start(ContactWork&) const {}
+  void finish(ContactWork&) const {}
 };
 
 /// Together, every thread takes every decision, from the same sums in the same order.
@@ -120,10 +136,12 @@ void iterateIsland(const SweepLimits& limits, Island& now, ContactWork& w, const
   while (goesOn(now, limits)) {
     const double caution = cautionOf(now);
     each.points(now, [&](int f, int end) { extrapolatePoints(w, now.beta, f, end); });
+    each.start(w);
     each(w, now, [&](int c) {
       sweepRows(w, now.beta, caution, w.chunks[c].row, w.chunks[c + 1].row, w.largest2[c], w.against[c]);
     });
     const double against = sumOf();
+    each.finish(w);
     if (sweptWith(mostOf(), limits, now)) {
       each.wait();
       each(w, now, [&](int c) { w.largest2[c] = largestResidual2(w, w.chunks[c].row, w.chunks[c + 1].row); });
@@ -153,6 +171,10 @@ Vec3 slipOf(const ContactWork& w, int row) {
 
 void iterate(double goal, int last, int most, ContactWork& w) {
   const SweepLimits limits{goal, last, most - most / 4};
+  if (dynamic_cast<const ProjectingHold*>(w.hold)) {
+    for (Island& island : w.islands) iterateIsland(limits, island, w, Held{});
+    return;
+  }
   if (w.hold) {
     iterateHeld(goal, last, w);
     return;

@@ -9,8 +9,12 @@
 /// are bounded by the row sums of the operator, ten times its diagonal; a sweep is not, and sees these patterns ten
 /// times as large: solves of walking and aiming armour take 0.35 to 0.45 of the iterations. Sweeps with momentum are no
 /// gradient method and may go round; where an island's residual has not fallen for some time, or has grown out of hand,
-/// its steps become shorter. Where something ties all points (MotionHold) a row cannot be taken alone:
-/// held_iteration.hpp.
+/// its steps become shorter.
+///
+/// Where something ties all points (MotionHold) a row cannot be taken alone: held_iteration.hpp. But if that is rows
+/// C v = 0 for velocities (seams), whose multipliers follow from all tractions at once, these are one more block of the
+/// same problem: a sweep over the contacts is followed by the projection of what it has changed, and both together are
+/// Gauss and Seidel's method by blocks.
 
 #include "core/contact/response.hpp"
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/math/parallel.hpp"
-
 namespace gambeson {
 
 void closingRates(const Model& m, std::span<const Vec3> p, double dt, StepScratch& w) {
@@ -14,6 +12,11 @@ void closingRates(const Model& m, std::span<const Vec3> p, double dt, StepScratc
   double rate = std::min(m.sewing_options.close_per_s, 1 / dt);
   if (rate * widest > m.sewing_options.close_m_per_s) rate = m.sewing_options.close_m_per_s / widest;
   for (Vec3& g : w.sewn_rates) g *= -rate;
+}
+
+bool seamsAreOpen(const Model& m, const StepScratch& w) {
+  const double fast = (1 - 1e-9) * m.sewing_options.close_m_per_s;
+  return std::any_of(w.sewn_rates.begin(), w.sewn_rates.end(), [&](const Vec3& r) { return norm(r) >= fast; });
 }
 
 void sewVelocities(const Model& m, std::span<const Vec3> p, double dt, StepWork& w) {
@@ -88,44 +91,14 @@ void SewnHold::touch(std::span<const int> points) {
   for (std::size_t k = 0; k < points_.size(); ++k)
     if (std::binary_search(model_.sewing.points().begin(), model_.sewing.points().end(), points_[k]))
       sewn_.push_back(static_cast<int>(k));
-  const std::size_t n = sewn_.size();
-  held_.assign(n * n, 0.0);
-  const auto at = [&](std::size_t k) -> Vec3& {
-    return all_[static_cast<std::size_t>(points_[static_cast<std::size_t>(sewn_[k])])];
-  };
-  for (std::size_t c = 0; c < n; c += 3) {  // three points at once, each in a component of its own
-    const int count = static_cast<int>(std::min<std::size_t>(3, n - c));
-    std::fill(all_.begin(), all_.end(), Vec3{});
-    for (int k = 0; k < count; ++k) at(c + static_cast<std::size_t>(k))[k] = 1;
-    model_.sewing.hold(all_, work_);
-    for (std::size_t r = 0; r < n; ++r)
-      for (int k = 0; k < count; ++k) held_[(c + static_cast<std::size_t>(k)) * n + r] = at(r)[k];
-  }
 }
 
-// Column by column, so that rows are summed side by side in vectors, each in the order of the columns.
 void SewnHold::holdTouched(std::span<Vec3> change) const {
-  constexpr int kRows = 64;  // of a block
-  const int n = static_cast<int>(sewn_.size());
-  std::vector<Vec3>& before = work_.moved;
-  before.clear();
-  for (const int k : sewn_) before.push_back(change[static_cast<std::size_t>(k)]);
-  forAll(Each::much, (n + kRows - 1) / kRows, [&](int block) {
-    double left[3][kRows] = {};
-    const int first = block * kRows, count = std::min(kRows, n - first);
-    for (int c = 0; c < n; ++c) {
-      const double* column = &held_[static_cast<std::size_t>(c) * n + first];
-      const Vec3 x = before[static_cast<std::size_t>(c)];
-      for (int r = 0; r < count; ++r) {
-        left[0][r] += column[r] * x.x;
-        left[1][r] += column[r] * x.y;
-        left[2][r] += column[r] * x.z;
-      }
-    }
-    for (int r = 0; r < count; ++r)
-      change[static_cast<std::size_t>(sewn_[static_cast<std::size_t>(first + r)])] = {left[0][r], left[1][r],
-                                                                                      left[2][r]};
-  });
+  const auto at = [&](int k) -> Vec3& { return all_[static_cast<std::size_t>(points_[static_cast<std::size_t>(k)])]; };
+  for (const int i : model_.sewing.points()) all_[static_cast<std::size_t>(i)] = {};
+  for (const int k : sewn_) at(k) = change[static_cast<std::size_t>(k)];
+  model_.sewing.hold(all_, work_);
+  for (const int k : sewn_) change[static_cast<std::size_t>(k)] = at(k);
 }
 
 bool contactsMeetSeams(const Model& m, std::span<const ContactRow> rows) {

@@ -8,6 +8,7 @@
 /// (SewnHold): contacts and seams are one problem. Rigid impact zones, which come after all contacts, have the last
 /// word where they meet a seam; what they part closes as an open seam does.
 
+#include "core/contact/projecting_hold.hpp"
 #include "core/motion/model.hpp"
 
 namespace gambeson {
@@ -24,6 +25,11 @@ void sewVelocities(const Model& model, std::span<const Vec3> p, double dt_s, Ste
 /// From a = (M + h D)^-1 F to what the seams leave of it. Returns their forces on all points, w.sewn_force [N].
 std::span<const Vec3> sewAccelerations(const Model& model, double half_step_s, std::span<Vec3> a, StepScratch& work);
 
+/// Whether seams are still far open: the widest gap closes as fast as gaps may. The rates are wishes then, which
+/// contact grants as far as it can: it does not see the seams, and what it moves them by closes in later steps. A body
+/// between two edges, or friction in a wedge, contradicts a rate that must be kept by whatever force.
+bool seamsAreOpen(const Model& model, const StepScratch& work);
+
 /// What the seams give all points while the contacts give them `impulses` is added to w.sewn_impulse [N s].
 void addSeamsUnderContact(const Model& model, std::span<const Vec3> impulses, StepWork& work);
 
@@ -34,10 +40,9 @@ double sewingWork(const Model& model, double dt_s, std::span<const Vec3> foresee
 double widestGap(const Model& model, std::span<const Vec3> p);
 
 /// The seams in the place of M^-1 for contacts.
-class SewnHold : public MotionHold {
+class SewnHold : public ProjectingHold {
  public:
   explicit SewnHold(const Model& model) : model_(model), all_(static_cast<std::size_t>(model.freeCount())) {}
-  bool bearsTension() const override { return false; }
   void hold(std::span<Vec3> change) const override { model_.sewing.hold(change, work_); }
   void touch(std::span<const int> points) override;
   void holdTouched(std::span<Vec3> change) const override;
@@ -45,8 +50,7 @@ class SewnHold : public MotionHold {
  private:
   const Model& model_;
   std::vector<int> points_;
-  std::vector<int> sewn_;     ///< of these, which a seam takes hold of: place in points_
-  std::vector<double> held_;  ///< what becomes of their changes, a column for each
+  std::vector<int> sewn_;  ///< of these, which a seam takes hold of: place in points_
   mutable SewnProjection::Work work_;
   mutable std::vector<Vec3> all_;
 };

@@ -181,7 +181,7 @@ void auditSewing(const Model& m, const State& in, double dt, StepReport& report,
   report.work.supports += sewingWork(m, dt, in.a, w);
   w.sewn_impulse = w.sewn_closing;
   for (const Vec3& impulse : w.sewn_impulse) report.momentum.scale += norm(impulse);
-  if (!w.rows.empty() && !m.held_points.empty()) {
+  if (!w.rows.empty() && !m.held_points.empty() && !seamsAreOpen(m, w)) {
     std::vector<Vec3> impulses(static_cast<std::size_t>(m.freeCount()));
     contactImpulses(m, w, impulses);
     addSeamsUnderContact(m, impulses, w);

@@ -1,7 +1,10 @@
 #include "human/motion/standing.hpp"
 
+#include <cmath>
+
 #include "core/error.hpp"
 #include "human/body/ground.hpp"
+#include "human/body/skin.hpp"
 #include "human/manikin/manikin.hpp"
 #include "human/motion/motion.hpp"
 
@@ -18,6 +21,26 @@ Posture standing(const Human& human) {
     if (shoulder >= 0) p.q[shoulder] = held_shoulder_abduction_rad;
   }
   p.root.origin.z = -lowestHeight(human, linkPoses(human.skeleton, p.q, p.root));
+  return p;
+}
+
+Posture postureOfSkin(const Human& human) {
+  if (!human.skin) return standing(human);
+  const std::vector<Pose>& at = human.skin->bind;
+  Posture p;
+  p.root = at[0];
+  for (const Joint& joint : human.skeleton.joints) {
+    const Pose from = at[static_cast<std::size_t>(joint.parent)] * joint.X_PJ;
+    const Pose moved = inverse(from) * at[static_cast<std::size_t>(joint.child)];
+    double value = 0;
+    if (joint.type == JointType::prismatic) value = dot(joint.axis, moved.origin);
+    if (joint.type == JointType::revolute) {
+      const Mat3& R = moved.rotation;  // about the axis: its trace is 1 + 2 cos, what is not symmetric 2 sin times it
+      const Vec3 twice_sine{R.b.z - R.c.y, R.c.x - R.a.z, R.a.y - R.b.x};
+      value = std::atan2(dot(joint.axis, twice_sine), R.a.x + R.b.y + R.c.z - 1);
+    }
+    p.q.push_back(value);
+  }
   return p;
 }
 

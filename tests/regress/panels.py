@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""A tube of two flat panels is sewn around a ball and worn.
+"""A tube of two flat panels is sewn around a ball and worn, and a vest of two around a woman.
 
     panels.py GAMBESON
 
 One that fits closes, crosses nothing and passes all checks of its run; one that is too narrow is worn too, and said to be
 short, by what the ball is wider; seams that have no time to close end the run by name; what is wrong in a pattern is said
-with file, panel and seam.
+with file, panel and seam. Panels with armholes and necklines, whose corners trimming leaves slivers of, start below the
+shoulders that they close over, hang and cross nothing.
 """
 
 import json
@@ -40,10 +41,38 @@ CASE = {
 }
 
 
-def worn(folder, name, tube, case=CASE):
+def vest():
+    def panel(name, sign, neck):
+        outline = [{"name": "hem", "start": [-0.27, 0]}, {"start": [0.27, 0]},
+                   {"name": "armhole", "start": [0.26, 0.24], "bezier": [[0.19, 0.26], [0.16, 0.40]]},
+                   {"name": "shoulder", "start": [0.17, 0.565]},
+                   {"name": "neckline", "start": [0.08, 0.60], "bezier": [[0.06, neck], [-0.06, neck]]},
+                   {"name": "shoulder", "start": [-0.08, 0.60]},
+                   {"name": "armhole", "start": [-0.17, 0.565], "bezier": [[-0.16, 0.40], [-0.19, 0.26]]},
+                   {"start": [-0.26, 0.24]}]
+        return {"name": name, "outline": outline,
+                "placement": {"origin": [sign * 0.2, 0, 0.78], "along_x": [0, sign, 0], "along_y": [0, 0, 1]}}
+
+    return {"format": "gambeson pattern 1", "name": "vest", "panels": [panel("front", 1, 0.46), panel("back", -1, 0.56)],
+            "seams": [{"name": "left side", "a": ["front.1"], "b": ["back.7 reversed"]},
+                      {"name": "right side", "a": ["front.7"], "b": ["back.1 reversed"]},
+                      {"name": "left shoulder", "a": ["front.3"], "b": ["back.5 reversed"]},
+                      {"name": "right shoulder", "a": ["front.5"], "b": ["back.3 reversed"]}]}
+
+
+VEST = {
+    **{key: value for key, value in CASE.items() if key != "obstacles"},
+    "name": "a vest of two panels on a woman",
+    "garment": {"pattern": {"path": "tube.json", "cell": "40 mm", "close_within": "2 s"}},
+    "human": {"manikin": "female_p50", "motion": {"stand": {"duration": "0.1 s"}}},
+    "dressing": {"layer_by_layer": True, "settle": "0.2 s"},
+}
+
+
+def worn(folder, name, pattern_of, case=CASE):
     place = folder / name
     place.mkdir()
-    (place / "tube.json").write_text(json.dumps(tube))
+    (place / "tube.json").write_text(json.dumps(pattern_of))
     (place / "case.json").write_text(json.dumps(case))
     return run("run", place / "case.json", "--out", place / "out"), place
 
@@ -68,6 +97,13 @@ def main():
         check(abs(rest - 200 * width) < 0.2, f"the narrow tube is {200 * width} cm around, not {rest}")
         check(abs(at - 100 * girth) < 0.02 * 100 * girth, f"the ball is {100 * girth} cm around, not {at}")
         print(f"narrow tube: {said.group(0)}")
+
+        done, place = worn(folder, "vest", vest(), VEST)
+        check(done.returncode == 0, f"the vest gave {done.returncode}: {done.stderr}")
+        numbers = summary(place / "out")
+        failed = [c for c in numbers["audit"] if not c["holds"]]
+        check(not failed, f"checks of the vest: {failed}")
+        check(numbers["collisions"]["most_intersections"] == 0, f"the vest crosses: {numbers['collisions']}")
 
         hasty = json.loads(json.dumps(CASE))
         hasty["garment"]["pattern"]["close_within"] = "50 ms"

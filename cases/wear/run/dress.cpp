@@ -13,6 +13,7 @@
 #include "core/motion/free_steps.hpp"
 #include "core/motion/sewing.hpp"
 #include "core/motion/step.hpp"
+#include "human/motion/standing.hpp"
 #include "tryon/girth.hpp"
 #include "tryon/stitching.hpp"
 
@@ -96,13 +97,42 @@ Closed closePanels(const Case& one, const Case& whole, std::size_t garment) {
 /// Seams of panels are closed [sides of a cell].
 constexpr double closed_cells = 0.05;
 
-/// A garment of flat panels by itself, without supports, with the time that its seams have to close.
+/// Of panels without weight.
+constexpr double closing_m_per_s = 0.5;
+
+bool areSame(const Posture& a, const Posture& b) {
+  constexpr double little = 1e-9;
+  double apart = norm(a.root.origin - b.root.origin);
+  for (std::size_t j = 0; j < a.q.size(); ++j) apart = std::max(apart, std::abs(a.q[j] - b.q[j]));
+  for (const Vec3& e : {a.root.rotation.a - b.root.rotation.a, a.root.rotation.b - b.root.rotation.b})
+    apart = std::max(apart, norm(e));
+  return apart < little;
+}
+
+/// A garment of flat panels by itself, without supports: first with the time that its seams have to close around the
+/// body in the posture of its skin, since panels are placed for a scan as it was scanned, and then, from settle_start_s
+/// of the stage on, on its way to where the motion starts, if that is elsewhere. Without friction, by which edges that
+/// close over a shoulder, say, jam.
 std::unique_ptr<Scenario> standingPanels(const Case& one, const Case& whole, std::size_t garment) {
   Case standing = one;
   standing.supports.clear();
   standing.dressing.projecting.reset();
-  standing.dressing.settle_s = std::get<PatternGarment>(one.garments[0].shape).close_within_s;
-  return buildAlone(standing, whole, garment);
+  const double close_s = std::get<PatternGarment>(one.garments[0].shape).close_within_s;
+  standing.dressing.settle_s = close_s;
+  standing.contact.friction = 0;
+  standing.contact.friction_cloth.reset();
+  standing.garments[0].friction.reset();
+  for (ObstacleCase& obstacle : standing.obstacles) obstacle.friction.reset();
+  std::unique_ptr<Scenario> s = buildAlone(standing, whole, garment);
+  s->model->sewing_options.close_m_per_s = closing_m_per_s;
+  const double move_s = whole.dressing.settle_s;
+  if (!s->human || !(move_s > 0)) return s;
+  const Posture placed = postureOfSkin(*s->human);
+  if (areSame(placed, s->motion->at(0))) return s;
+  s->stage->dressed = placed;
+  s->stage->settle_start_s = -move_s;
+  s->start_s = s->stage->grow_start_s = -(close_s + move_s);
+  return s;
 }
 
 /// "armhole" gapes by up to 12.3 mm, the widest first.
@@ -138,7 +168,10 @@ std::string fitText(const Scenario& s, const State& state) {
   return shortText(shortGirths(m.surface, rest, worn, {0, 0, 1}, fitting_stretch));
 }
 
-/// Its seams close around the body, each at its own rate (core/motion/sewing.hpp), without weight.
+void nobody(const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {}
+
+/// Its seams close around the body (core/motion/sewing.hpp), without weight; then it goes along to where the motion
+/// starts.
 State sewnAround(const Scenario& s) {
   const Model& m = *s.model;
   StepWork work;
@@ -147,20 +180,25 @@ State sewnAround(const Scenario& s) {
   const TimeCase& time = s.definition.time;
   const std::unique_ptr<Integrator> integrator =
       makeIntegrator(time.motion, m, *s.stage, time.control(), frequency, work);
+  const double closed_s = s.human && s.stage->settle_start_s > s.start_s ? s.stage->settle_start_s : 0;
   double widest = widestGap(m, state.p);
-  while (widest > closed_cells && state.time_s < -1e-9) {
-    integrator->advance(std::min(0.0, state.time_s + look_s), state,
-                        [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
+  while (widest > closed_cells && state.time_s < closed_s - 1e-9) {
+    integrator->advance(std::min(closed_s, state.time_s + look_s), state, nobody);
     widest = widestGap(m, state.p);
   }
   if (widest > closed_cells)
     throw RunError(
         fmt::format("seams gape after {} s, {:.2g} sides of a cell at most (to be closed: {}): {}; more time "
                     "(close_within), or panels that stand nearer to the wearer, may close them{}{}",
-                    -s.start_s, widest, closed_cells, gapesText(s, state),
+                    closed_s - s.start_s, widest, closed_cells, gapesText(s, state),
                     fitText(s, state).empty() ? "" : ". It does not fit: ", fitText(s, state)));
   if (const std::string fit = fitText(s, state); !fit.empty())
     sayNote(fmt::format("garment \"{}\" does not fit: {}", s.wardrobe.drafts[0].name, fit));
+  if (closed_s < 0) {  // a time that others have not seen: what steps keep of the way before does not go on
+    state.time_s = closed_s;
+    StepWork fresh;
+    makeIntegrator(time.motion, m, *s.stage, time.control(), frequency, fresh)->advance(0, state, nobody);
+  }
   return state;
 }
 
@@ -208,8 +246,13 @@ void buildApart(const Case& c) {
 
 void putOn(Scenario& s) {
   const DressingCase& dressing = s.definition.dressing;
-  if (dressing.layer_by_layer && dressing.from.empty()) wear(s, putOnApart(s.definition));
   const Case& c = s.definition;
+  if (dressing.layer_by_layer && dressing.from.empty()) {
+    const Dressed worn = putOnApart(c);
+    wear(s, worn);
+    const auto sewn = [](const GarmentCase& g) { return kindOf(g).sewn; };
+    if (s.stage->dressed && std::any_of(c.garments.begin(), c.garments.end(), sewn)) s.stage->dressed = worn.posture;
+  }
   if (c.human || !kindOf(c.garments[0]).sewn) return;
   const std::unique_ptr<Scenario> panels = standingPanels(alone(c, 0), c, 0);
   s.start_m = sewnAround(*panels).p;

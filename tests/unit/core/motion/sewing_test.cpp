@@ -232,6 +232,40 @@ TEST(Sewing, PanelsThatLieApartAreClosed) {
   EXPECT_LT(worst, 1e-9);
 }
 
+TEST(Sewing, PanelsThatCloseOnABallStopThere) {
+  // Rough and between both edges: no rate at which the gap closes can be kept.
+  constexpr double kBall = 0.04, kApart = 0.1;
+  CutSheet sheet = sewnSheet();
+  const Garment g = sheet.garment(sheetFabric());
+  Placement at;
+  at.origin = {0.5 * sheet.length + 0.5 * kApart, 0.5 * sheet.width, 0};
+  Motion m =
+      startOf(g, {{0, 0, 0}, 1}, true, {1e-3, 1, 0.01, 1e-2, 400}, {{Ellipsoid{{kBall, kBall, kBall}}, "ball"}}, {at});
+  for (int i = 0; i < m.model->freeCount(); ++i)
+    if (m.model->cloth->map().home[i] >= g.patches[0].size()) m.state.p[i] += Vec3{kApart, 0, 0};
+  m.restart();
+  const double dt = 0.4 * stableStep(m);
+  double fastest = 0, worst = 0;
+  int zones = 0;
+  for (int k = 0; k * dt < 0.12; ++k) {
+    const StepReport r = m.step(dt);
+    ASSERT_EQ(r.failure, StepFailure::none) << r.why;
+    zones += r.impact_zones;
+    worst = std::max(worst, r.momentum.error() / r.momentum.scale);
+    for (const Vec3& v : m.state.v) fastest = std::max(fastest, norm(v));
+  }
+  std::vector<Vec3> rows;
+  m.model->sewing.gaps(m.state.p, rows);
+  double widest = 0;
+  for (const Vec3& r : rows) widest = std::max(widest, norm(r));
+  std::printf("with a ball between: at most %.2f m/s, %d zones, open by %.3f m\n", fastest, zones, widest);
+  EXPECT_GT(widest, kBall);
+  EXPECT_LT(widest, kApart);
+  EXPECT_EQ(zones, 0);
+  EXPECT_LT(fastest, 2);
+  EXPECT_LT(worst, 1e-9);
+}
+
 TEST(Sewing, HoldsUnderContact) {
   // The seam falls onto a ball: both momenta of step and contact, and the gap.
   const CutSheet sheet = sewnSheet();

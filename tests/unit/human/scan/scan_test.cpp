@@ -53,6 +53,18 @@ TEST(Scan, JointsOfAnAPoseAreWithinTwoCentimetres) { expectJoints(aPose(), 0.02)
 TEST(Scan, JointsOfATPoseAreWithinTwoCentimetres) { expectJoints(test::scanBody("male_p50", 85), 0.02); }
 TEST(Scan, JointsOfASmallWomanAreWithinTwoCentimetres) { expectJoints(test::scanBody("female_p5", 40), 0.02); }
 
+TEST(Scan, StandsAgainAsItWasScanned) {
+  const Human h = made(aPose().mesh);
+  const Posture p = postureOfSkin(h);
+  const int arm = h.skeleton.joint("shoulder_abduction_left");
+  EXPECT_NEAR(p.q[static_cast<std::size_t>(arm)], 45 * rad_per_deg, 4 * rad_per_deg);
+  std::vector<Vec3> x(h.skin->rest.vertices.size());
+  skinPositions(*h.skin, linkPoses(h.skeleton, p.q, p.root), x);
+  double apart = 0;
+  for (std::size_t v = 0; v < x.size(); ++v) apart = std::max(apart, norm(x[v] - h.skin->rest.vertices[v]));
+  EXPECT_LT(apart, 1e-9);
+}
+
 TEST(Scan, IsAClosedSkinOfTheScansVolumeWhoseWeightsSumToOne) {
   ScanReport report;
   const Human h = made(aPose().mesh, &report);
