@@ -144,7 +144,7 @@ class Importer {
       note(fmt::format("{} files say no unit: read in m, {:.1f} cm from end to end; --unit says another",
                        out_.file.source.format, 100 * size));
     const bool turned = choices_.up == "y";
-    for (Vec3& x : mesh().vertices) x = unit * (turned ? Vec3{x.z, x.x, x.y} : x);
+    for (Vec3& x : mesh().vertices) x = Vec3{} + unit * (turned ? Vec3{x.z, x.x, x.y} : x);  // no -0
     const Vec3 e = high - low;
     if (choices_.up.empty() && e.y > 1.5 * e.z)
       note(fmt::format(

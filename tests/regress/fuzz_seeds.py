@@ -312,7 +312,7 @@ def lab_loop():
 
 LAB_POINTS = """{"source": "a laboratory, 2026",
  "tension_weft": [[0.005, "10 N/m"], [0.01, "25 N/m"], [0.02, "80 N/m"], [0.04, "300 N/m"], [0.05, "490 N/m"]],
- "overhang_warp": ["52 mm", "54 mm", "53 mm"]}
+ "tension_warp": [[0.005, "12 N/m"], [0.01, "30 N/m"], [0.02, "95 N/m"], [0.04, "350 N/m"]]}
 """
 
 

@@ -136,7 +136,8 @@ ClothMesh islandsOf(const ClothMesh& m, double scale_m, int& mirrored) {
       out.patch.push_back(i);
       auto& corners = out.uv.emplace_back();
       for (std::size_t k = 0; k < 3; ++k)
-        corners[k] = {scale_m * (turned[at(i)] ? -m.uv[at(t)][k].x : m.uv[at(t)][k].x), scale_m * m.uv[at(t)][k].y};
+        corners[k] = {0.0 + scale_m * (turned[at(i)] ? -m.uv[at(t)][k].x : m.uv[at(t)][k].x),  // no -0
+                      0.0 + scale_m * m.uv[at(t)][k].y};
     }
   }
   for (const MeshLine& line : m.lines)
