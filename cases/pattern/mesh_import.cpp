@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
 #include <ostream>
 
@@ -21,6 +22,7 @@ namespace gambeson {
 namespace {
 
 constexpr double kWeld_m = 1e-5;
+constexpr double kFarthest_m = 1000;                  ///< from the origin, as of all meshes
 constexpr double kSmallest_m = 0.05, kLargest_m = 4;  ///< of garments, from end to end
 constexpr double kUsual_m[] = {0.25, 2.5};            ///< of most
 constexpr double kSmallHole_m = 0.05;                 ///< around: smaller than any opening of a garment
@@ -103,9 +105,11 @@ class Importer {
 
   void ply() {
     out_.file.source.format = "PLY";
-    TriangleMeshWithUv read = loadTrianglesWithUv(file_);
+    // The reader takes nothing beyond 1000 m, and these may be mm.
+    constexpr double per_unit = 1.0 / 1024;
+    TriangleMeshWithUv read = loadTrianglesWithUv(file_, per_unit);
     ClothMesh& m = mesh();
-    m.vertices = std::move(read.mesh.vertices);
+    for (const Vec3& x : read.mesh.vertices) m.vertices.push_back((1 / per_unit) * x);
     m.triangles = std::move(read.mesh.triangles);
     m.patch_names = {"cloth"};
     m.patch.assign(m.triangles.size(), 0);
@@ -127,6 +131,14 @@ class Importer {
         low = {std::min(low.x, x.x), std::min(low.y, x.y), std::min(low.z, x.z)};
         high = {std::max(high.x, x.x), std::max(high.y, x.y), std::max(high.z, x.z)};
       }
+    const double farthest = std::max(
+        {std::abs(low.x), std::abs(low.y), std::abs(low.z), std::abs(high.x), std::abs(high.y), std::abs(high.z)});
+    if (!(unit * farthest <= kFarthest_m))
+      throw InputError(
+          {file_.string(), 0, "vertices"},
+          fmt::format("lie up to {:.4g} m from the origin; allowed: {:g} m. Move the mesh to where its wearer "
+                      "stands, or say its unit with --unit",
+                      unit * farthest, kFarthest_m));
     const double size = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
     if (!(unit * size >= kSmallest_m && unit * size <= kLargest_m)) {
       std::string likely;

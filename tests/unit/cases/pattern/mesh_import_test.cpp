@@ -89,6 +89,16 @@ TEST(MeshImport, AxesAndUnits) {
   const std::string answer = meshRefusal(folder.write("big.obj", tubeObj(15, 40, 1)));
   EXPECT_NE(answer.find("largest extent is 40, which is 40 m in m"), std::string::npos) << answer;
   EXPECT_NE(answer.find("--unit cm (40 cm)"), std::string::npos) << answer;
+  const auto far = folder.write("far.obj", "v 2000 0 0\nv 2000.3 0 0\nv 2000 0.3 0\nf 1 2 3\n");
+  EXPECT_NE(meshRefusal(far).find("from the origin"), std::string::npos);
+  // PLY in mm, beyond a thousand of them.
+  ImportChoices mm;
+  mm.unit = "mm";
+  std::string ply = squarePly(true);
+  for (std::size_t at = ply.find("0.2 "); at != std::string::npos; at = ply.find("0.2 ", at + 1))
+    ply.replace(at, 4, "2000 ");
+  const ImportedMesh large = importMesh(folder.write("mm.ply", ply), mm, "s");
+  EXPECT_NEAR(areaOf(large.file.mesh, 0), 4, 1e-6);
   y.up = "x";
   EXPECT_NE(meshRefusal(file, y).find("allowed: y, z"), std::string::npos);
 }
