@@ -15,8 +15,8 @@ namespace gambeson {
 namespace {
 
 /// One square panel, 20 units wide, whose edge 0 (or its last, backwards) is curved; `more`: further members.
-std::string square(const std::string& curve, const std::string& properties = "\"units_in_meter\": 100",
-                   bool clockwise = false, const std::string& more = "") {
+std::string squarePanel(const std::string& curve, const std::string& properties = "\"units_in_meter\": 100",
+                        bool clockwise = false, const std::string& more = "") {
   return fmt::format(
       R"({{"pattern": {{"panels": {{"p": {{"vertices": [[0, 0], [20, 0], [20, 20], [0, 20]], "edges": [{}]{}}}}}, "stitches": []}},
           "properties": {{{}}}}})",
@@ -30,14 +30,16 @@ std::string square(const std::string& curve, const std::string& properties = "\"
       more, properties);
 }
 
-Panel only(const Folder& folder, const std::string& text) {
+Panel onlyPanel(const Folder& folder, const std::string& text) {
   return importPattern(folder.write("a_specification.json", text), {}).pattern.panels.at(0);
 }
 
 TEST(ForeignGarmentCode, EveryFormOfACurve) {
   const Folder folder;
   const double chord = 0.2, whole = 0.04;
-  const auto area = [&](const std::string& curve) { return areaOf(only(folder, square(", \"curvature\": " + curve))); };
+  const auto area = [&](const std::string& curve) {
+    return areaOf(onlyPanel(folder, squarePanel(", \"curvature\": " + curve)));
+  };
   // A control point at (1/2, y) of the chord c lifts a parabola of area 1/3 c^2 y; to the left of the edge, into the
   // cloth.
   const double parabola = chord * chord * 0.3 / 3;
@@ -58,9 +60,10 @@ TEST(ForeignGarmentCode, EveryFormOfACurve) {
   EXPECT_NEAR(area(R"({"type": "circle", "params": [9.9999999, 0, 1]})"), whole + 0.5 * std::numbers::pi * 0.01, 1e-12);
   // Control points in the panel's own coordinates.
   const std::string absolute = "\"units_in_meter\": 100, \"curvature_coords\": \"absolute\"";
-  EXPECT_NEAR(areaOf(only(folder, square(R"(, "curvature": {"type": "quadratic", "params": [[10, 6]]})", absolute))),
-              whole - parabola, 1e-15);
-  EXPECT_NEAR(areaOf(only(folder, square(R"(, "curvature": [10, 6])", absolute))), whole - parabola, 1e-15);
+  EXPECT_NEAR(
+      areaOf(onlyPanel(folder, squarePanel(R"(, "curvature": {"type": "quadratic", "params": [[10, 6]]})", absolute))),
+      whole - parabola, 1e-15);
+  EXPECT_NEAR(areaOf(onlyPanel(folder, squarePanel(R"(, "curvature": [10, 6])", absolute))), whole - parabola, 1e-15);
 }
 
 TEST(ForeignGarmentCode, ClockwisePanelsAndOtherUnits) {
@@ -72,19 +75,19 @@ TEST(ForeignGarmentCode, ClockwisePanelsAndOtherUnits) {
       // The same curve run the other way round lies to the other side.
       const std::string curve =
           fmt::format(R"(, "curvature": {{"type": "quadratic", "params": [[0.5, {}]]}})", clockwise ? -0.3 : 0.3);
-      EXPECT_NEAR(areaOf(only(folder, square(curve, units, clockwise))), (400 - 40) * unit * unit,
+      EXPECT_NEAR(areaOf(onlyPanel(folder, squarePanel(curve, units, clockwise))), (400 - 40) * unit * unit,
                   1e-12 * 400 * unit * unit);
     }
   }
-  EXPECT_FALSE(only(folder, square("")).placement);
-  EXPECT_FALSE(only(folder, square("", "\"units_in_meter\": 100", true)).placement);
+  EXPECT_FALSE(onlyPanel(folder, squarePanel("")).placement);
+  EXPECT_FALSE(onlyPanel(folder, squarePanel("", "\"units_in_meter\": 100", true)).placement);
 }
 
 /// R = Rz Ry Rx in degrees, in axes with y up and z forward.
 TEST(ForeignGarmentCode, RotationsInSpace) {
   const Folder folder;
-  const Panel p = only(folder, square("", "\"units_in_meter\": 100", false,
-                                      R"(, "translation": [10, 120, -30], "rotation": [30, -40, 75])"));
+  const Panel p = onlyPanel(folder, squarePanel("", "\"units_in_meter\": 100", false,
+                                                R"(, "translation": [10, 120, -30], "rotation": [30, -40, 75])"));
   ASSERT_TRUE(p.placement);
   const double a = 30 * std::numbers::pi / 180, b = -40 * std::numbers::pi / 180, c = 75 * std::numbers::pi / 180;
   const auto turned = [&](Vec3 v) {
@@ -96,7 +99,8 @@ TEST(ForeignGarmentCode, RotationsInSpace) {
   EXPECT_LT(norm(p.placement->along_x - turned({1, 0, 0})), 1e-15);
   EXPECT_LT(norm(p.placement->along_y - turned({0, 1, 0})), 1e-15);
   EXPECT_LT(norm(p.placement->origin_m - Vec3{-0.3, 0.1, 1.2}), 1e-15);
-  const Panel only_turned = only(folder, square("", "\"units_in_meter\": 100", false, R"(, "rotation": [0, 90, 0])"));
+  const Panel only_turned =
+      onlyPanel(folder, squarePanel("", "\"units_in_meter\": 100", false, R"(, "rotation": [0, 90, 0])"));
   EXPECT_LT(norm(only_turned.placement->origin_m), 1e-15);
 }
 

@@ -22,7 +22,7 @@
 namespace gambeson {
 namespace {
 
-ImportChoices centimetres() {
+ImportChoices inCentimetres() {
   ImportChoices c;
   c.unit = "cm";
   return c;
@@ -42,15 +42,15 @@ bool saysOf(const std::vector<std::string>& list, const std::string& word) {
   return std::any_of(list.begin(), list.end(), [&](const auto& s) { return s.find(word) != std::string::npos; });
 }
 
-/// A closed tetrahedron, and what makes it another thing.
-std::string faces(const std::string& f) {
+/// Six corners, and faces of them.
+std::string sixCorners(const std::string& f) {
   return "v 0 0 0\nv 0.3 0 0\nv 0 0.3 0\nv 0 0 0.3\nv 0.3 0.3 0\nv 0.1 0 0\n" + f;
 }
 
 TEST(MeshImport, ATubeHasItsMeasures) {
   const Folder folder;
   const double radius = 15, height = 40, side = 2 * radius * std::sin(std::numbers::pi / 12);
-  const ImportedMesh in = importMesh(folder.write("tube.obj", tubeObj(radius, height, 60)), centimetres(), "tube");
+  const ImportedMesh in = importMesh(folder.write("tube.obj", tubeObj(radius, height, 60)), inCentimetres(), "tube");
   const ClothMesh& m = in.file.mesh;
   ASSERT_EQ(m.patch_names, (std::vector<std::string>{"front", "back"}));
   EXPECT_EQ(m.vertices.size(), 48u);  // 56 of the file, 8 of them twice, to rounding
@@ -105,7 +105,7 @@ TEST(MeshImport, AxesAndUnits) {
 
 TEST(MeshImport, ComesBackToTheBitAndIsWorn) {
   const Folder folder;
-  const ImportedMesh in = importMesh(folder.write("tube.obj", tubeObj(15, 40, 60)), centimetres(), "tube");
+  const ImportedMesh in = importMesh(folder.write("tube.obj", tubeObj(15, 40, 60)), inCentimetres(), "tube");
   const auto file = folder.write("garment.json", clothMeshText(in.file));
   const ClothMeshFile back = loadClothMesh(file);
   EXPECT_EQ(clothMeshText(back), clothMeshText(in.file));
@@ -158,7 +158,7 @@ TEST(MeshImport, PlyKeepsItsUv) {
 
 TEST(MeshImport, SaysWhatIsNoClothAndWhere) {
   const Folder folder;
-  const auto answer = [&](const std::string& f) { return meshRefusal(folder.write("m.obj", faces(f))); };
+  const auto answer = [&](const std::string& f) { return meshRefusal(folder.write("m.obj", sixCorners(f))); };
   const auto expect = [&](const std::string& f, const std::string& word) {
     const std::string said = answer(f);
     EXPECT_NE(said.find(word), std::string::npos) << said;
@@ -173,7 +173,7 @@ TEST(MeshImport, SaysWhatIsNoClothAndWhere) {
   ImportChoices second;
   second.piece = 2;
   const ImportedMesh one = importMesh(
-      folder.write("two.obj", faces("v 1 0 0\nv 1.2 0 0\nv 1 0.2 0\nf 7 8 9\nf 1 2 3\nf 1 3 4\n")), second, "m");
+      folder.write("two.obj", sixCorners("v 1 0 0\nv 1.2 0 0\nv 1 0.2 0\nf 7 8 9\nf 1 2 3\nf 1 3 4\n")), second, "m");
   EXPECT_EQ(one.file.mesh.triangles.size(), 1u);
   EXPECT_TRUE(saysOf(one.dropped, "2 triangles of other pieces"));
   // A ring of squares with half a turn.
