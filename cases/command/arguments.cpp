@@ -92,9 +92,10 @@ void addDress(CLI::App& app, DressArguments& a) {
 void addCheck(CLI::App& app, CheckArguments& a) {
   CLI::App& check = *app.add_subcommand("check", "Checks a case, or another file, without running it");
   check
-      .add_option("CASE", a.file,
-                  "Case file (JSON); not needed with --schema or --doc. Of a study, card, law, garment, pattern, motion, "
-                  "mesh or folder of results it says what it is and whether it is sound")
+      .add_option(
+          "CASE", a.file,
+          "Case file (JSON); not needed with --schema or --doc. Of a study, card, law, garment, pattern, motion, "
+          "mesh or folder of results it says what it is and whether it is sound")
       ->type_name("");
   addOverrides(check, a.overrides);
   check.add_flag("--full", a.full, "Prints the case with all defaults written out, in SI");
@@ -121,9 +122,10 @@ void addDraft(CLI::App& app, DraftArguments& a) {
   draft.add_flag("--obj", a.obj, "A mesh of triangles in place of its patches, as a name that ends in .obj says too");
   draft.add_flag("--flat", a.flat, "Flat panels at 1:1 (DXF, SVG, or a pattern in JSON)");
   draft
-      .add_option("-o,--output", a.garment_file,
-                  "File to write, as its name ends: .json its patches, .obj a mesh of triangles; with --flat .dxf, .svg "
-                  "or .json")
+      .add_option(
+          "-o,--output", a.garment_file,
+          "File to write, as its name ends: .json its patches, .obj a mesh of triangles; with --flat .dxf, .svg "
+          "or .json")
       ->type_name("GARMENT")
       ->required();
   draft.footer(
@@ -144,10 +146,10 @@ void addImport(CLI::App& app, ImportArguments& a) {
       .add_option(
           "FILE", a.file,
           "specification.json of GarmentCode, DXF-AAMA or ASTM D6673 (.dxf), surfaces of CAD programs (.step, .stp, "
-          ".igs, .iges, .brep), or a pattern that this command wrote")
+          ".igs, .iges, .brep), a garment of triangles (.obj, .ply), or what this command wrote")
       ->type_name("")
       ->required();
-  import.add_option("-o,--output", a.output, "Pattern file to write (JSON)")->type_name("GARMENT");
+  import.add_option("-o,--output", a.output, "Pattern, patches or mesh to write (JSON)")->type_name("GARMENT");
   import.add_option("--svg", a.svg, "Drawing to write (SVG): 1:1 in mm, with edges by number and seams by colour")
       ->type_name("PATTERN");
   import
@@ -156,15 +158,25 @@ void addImport(CLI::App& app, ImportArguments& a) {
           "Unit of the file's lengths, in place of the one that it says or where it says none (of CAD files: where it "
           "says none): mm, cm, in ..")
       ->type_name("UNIT");
+  import.add_option("--up", a.choices.up, "Which axis of a mesh is up, y or z [z, as gambeson writes OBJ]")
+      ->type_name("AXIS");
+  import
+      .add_option("--piece", a.choices.piece, "Which of the pieces of a mesh that hang together nowhere, 1 the largest")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100000).description(""));
   import.add_option("--size", a.choices.size, "Which size of a graded DXF pattern [its SAMPLE SIZE]")
       ->type_name("SIZE");
+  import.add_flag("--unfold", a.choices.unfold,
+                  "Halves of DXF pieces that are drawn up to their mirror line are made whole");
   import.footer(
       "Prints the panels with their areas, the seams with the lengths of their sides, and what the file says that is "
       "not\nkept. DXF has no seams: they are proposed by length and notches. Mend them in \"seams\" of GARMENT, where "
       "a side is\n\"front.3\", \"front.3 reversed\" or \"front.3 from 0.25 to 1\" (panel, edge, part of its length), "
       "and "
       "draw it again.\nOf CAD files each face is a panel where all are planes, and a trimmed patch of a garment (for "
-      "garment.file) where one is curved;\nedges that faces share are their seams.\n\n"
+      "garment.file) where one is curved;\nedges that faces share are their seams. Of meshes groups or materials are "
+      "patches, uv is how they lie flat where its lengths fit,\nand borders are edges by name (for "
+      "garment.mesh_file).\n\n"
       "Examples:\n"
       "  gambeson import shirt_specification.json -o shirt.json --svg shirt.svg\n"
       "  gambeson import blouse.dxf -o blouse.json --svg blouse.svg\n"
@@ -278,7 +290,9 @@ void addFabric(CLI::App& app, FabricArguments& a) {
       "fabric",
       "Makes a fabric of a laboratory's card (KES, FAST, D1388), and measures it again in a virtual "
       "laboratory");
-  command.add_option("CARD", a.options.card, "Fabric card (JSON), or the name of one of the library")->type_name("")->required();
+  command.add_option("CARD", a.options.card, "Fabric card (JSON), or the name of one of the library")
+      ->type_name("")
+      ->required();
   command
       .add_option("-o,--output", a.options.fabric,
                   "Writes the fabric as cases have it, with where each number is from (JSON); the laboratory stays "
@@ -328,10 +342,11 @@ void addFabric(CLI::App& app, FabricArguments& a) {
       ->capture_default_str()
       ->check(CLI::Range(2, 5).description(""));
   command
-      .add_option("--fit", a.options.loop,
-                  "Measured points (JSON): finds EMT, LT, G, 2HG, B, 2HB from them by least squares, with error bars, in "
-                  "place of the card's. Or a raw loop of bending (CSV with the columns curvature_per_cm or _per_m, and "
-                  "moment_gf_cm_per_cm, moment_N or moment_mN): finds its stops and bends the fabric by them")
+      .add_option(
+          "--fit", a.options.loop,
+          "Measured points (JSON): finds EMT, LT, G, 2HG, B, 2HB from them by least squares, with error bars, in "
+          "place of the card's. Or a raw loop of bending (CSV with the columns curvature_per_cm or _per_m, and "
+          "moment_gf_cm_per_cm, moment_N or moment_mN): finds its stops and bends the fabric by them")
       ->type_name("FILE");
   command.footer(
       "A card has the numbers of a laboratory, each with its unit:\n"

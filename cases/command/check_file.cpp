@@ -32,6 +32,7 @@
 #include "human/recorded/markers.hpp"
 #include "human/recorded/osim.hpp"
 #include "human/recorded/storage.hpp"
+#include "tryon/pattern/cloth_mesh_file.hpp"
 #include "tryon/pattern/garment_file.hpp"
 
 namespace gambeson {
@@ -105,6 +106,7 @@ const std::vector<SortByKeys>& sortsByKeys() {
       {isGarmentCode,
        {"pattern of GarmentCode", [](const Path& f) { importPattern(f, {}); }, "gambeson import reads it"}},
       {format("gambeson garment"), {"garment", loadGarment, "garment.file.path of a case takes it"}},
+      {format(kClothMeshFormat), {"garment of triangles", loadClothMesh, "garment.mesh_file.path of a case takes it"}},
       {format("gambeson dressed"), {"dressed state", readDressed, "dressing.from of a case takes it"}},
       {keys("units", "membrane"), {"law table", readLawTable, "fabric.law.table of a case takes it"}},
       {keys("checks", "runs"), {"reference", verify::readReference, "gambeson verify runs it"}},

@@ -141,7 +141,13 @@ CadShape readBrep(const std::string& file, double metres) {
   TopoDS_Shape shape;
   std::ifstream in(file);
   BRep_Builder builder;
-  BRepTools::Read(shape, in, builder);
+  // Its reader goes on and on where a damaged file ends.
+  in.exceptions(std::ios::failbit | std::ios::badbit);
+  try {
+    BRepTools::Read(shape, in, builder);
+  } catch (const std::ios_base::failure&) {
+    shape.Nullify();
+  }
   if (shape.IsNull()) throw InputError({"", 0, ""}, "is no .brep file of OpenCASCADE, or a damaged one");
   CadShape out;
   if (metres == 0)

@@ -9,7 +9,13 @@
 #include <BRepLib.hxx>
 #include <Geom2d_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
+#include <IGESBasic_Name.hxx>
 #include <IGESControl_Writer.hxx>
+#include <IGESData_GlobalSection.hxx>
+#include <IGESData_IGESEntity.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <IGESData_IGESWriter.hxx>
+#include <IGESSelect_WorkLibrary.hxx>
 #include <Interface_FloatWriter.hxx>
 #include <Interface_Static.hxx>
 #include <STEPConstruct.hxx>
@@ -26,6 +32,8 @@
 #include <TCollection_HAsciiString.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Wire.hxx>
+#include <TransferBRep.hxx>
+#include <TransferBRep_ShapeMapper.hxx>
 #include <Transfer_FinderProcess.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <memory>
@@ -39,6 +47,7 @@ namespace {
 
 constexpr double kMillimetres = 1e3;
 constexpr const char* kTime = "2000-01-01T00:00:00";  ///< the same surfaces give the same bytes
+constexpr const char* kIgesTime = "20000101.000000";
 
 /// Distinct knots and how often each stands.
 struct Knots {
@@ -161,13 +170,44 @@ std::string stepText(const std::string& title, const CadShape& given, double tol
   return out.str();
 }
 
-std::string igesText(const CadShape& given, double tolerance_m) {
+/// IGES knows ASCII alone.
+Handle(TCollection_HAsciiString) asciiText(std::string s) {
+  for (char& c : s)
+    if (c < ' ' || c > '~') c = '_';
+  return hText(s);
+}
+
+std::string igesText(const std::string& title, const CadShape& given, double tolerance_m) {
   const Sewn s = sewn(given, tolerance_m);
-  IGESControl_Writer writer("MM", 1);
+  IGESControl_Writer writer("MM", 1);  // B-rep entities: shells keep their sewing
   if (!writer.AddShape(s.shape)) throw RunError("OpenCASCADE has no IGES entities for these faces");
   writer.ComputeModel();
+  const Handle(IGESData_IGESModel) model = writer.Model();
+  const Handle(Transfer_FinderProcess) made = writer.TransferProcess();
+  for (std::size_t k = 0; k < s.faces.size(); ++k) {
+    const auto face =
+        Handle(IGESData_IGESEntity)::DownCast(made->FindTransient(TransferBRep::ShapeMapper(made, s.faces[k])));
+    if (face.IsNull() || given.faces[k].name.empty()) continue;
+    const Handle(IGESBasic_Name) name = new IGESBasic_Name;
+    name->Init(1, asciiText(given.faces[k].name));
+    face->AddProperty(name);
+    model->AddEntity(name);
+  }
+  IGESData_GlobalSection global = model->GlobalSection();
+  global.SetSendName(asciiText(title));
+  global.SetFileName(asciiText(title));
+  global.SetReceiveName(asciiText(title));
+  global.SetSystemId(hText("Gambeson"));
+  global.SetAuthorName(hText("Gambeson"));
+  global.SetCompanyName(hText("Gambeson"));
+  global.SetDate(hText(kIgesTime));
+  global.SetLastChangeDate(hText(kIgesTime));
+  model->SetGlobalSection(global);
+  IGESData_IGESWriter text(model);
+  text.FloatWriter().SetFormat("%.16E");
+  text.SendModel(IGESSelect_WorkLibrary::DefineProtocol());
   std::ostringstream out;
-  if (!writer.Write(out)) throw RunError("OpenCASCADE cannot write the IGES file");
+  if (!text.Print(out)) throw RunError("OpenCASCADE cannot write the IGES file");
   return out.str();
 }
 
@@ -175,7 +215,7 @@ std::string igesText(const CadShape& given, double tolerance_m) {
 
 std::string shapeText(const std::string& title, const CadShape& shape, CadFormat format, double tolerance_m) {
   if (format == CadFormat::step) return stepText(title, shape, tolerance_m);
-  if (format == CadFormat::iges) return igesText(shape, tolerance_m);
+  if (format == CadFormat::iges) return igesText(title, shape, tolerance_m);
   throw RunError("only STEP and IGES are written");
 }
 

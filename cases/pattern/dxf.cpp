@@ -37,16 +37,18 @@ std::string value(const std::vector<DxfEntity>& entities, const std::string& key
 /// Width and height of the largest boundary, in the file's unit.
 Vec2 largest(const DxfFile& dxf) {
   Vec2 most{0, 0};
-  for (const DxfBlock& b : dxf.blocks) {
+  const auto take = [&](const std::vector<DxfEntity>& entities) {
     Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
-    for (const DxfEntity& e : b.entities)
+    for (const DxfEntity& e : entities)
       if (e.layer == "1" && e.kind == DxfEntity::Kind::polyline)
         for (const Vec2& p : e.points) {
           low = {std::min(low.x, p.x), std::min(low.y, p.y)};
           high = {std::max(high.x, p.x), std::max(high.y, p.y)};
         }
     if (high.x - low.x > most.x) most = {high.x - low.x, high.y - low.y};
-  }
+  };
+  for (const DxfBlock& b : dxf.blocks) take(b.entities);
+  if (most.x == 0) take(dxf.entities);
   return most;
 }
 
@@ -153,7 +155,7 @@ void checkFinite(const std::filesystem::path& file, const DxfFile& dxf) {
   check(dxf.entities, "ENTITIES");
 }
 
-/// Blocks with a boundary. Some programs write pieces without blocks: then what stands in ENTITIES is one.
+/// Blocks with a boundary.
 std::vector<const DxfBlock*> piecesOf(const DxfFile& dxf) {
   std::vector<const DxfBlock*> out;
   for (const DxfBlock& b : dxf.blocks)
@@ -208,12 +210,22 @@ ImportedPattern readDxf(const std::filesystem::path& file, const ImportChoices& 
   const DxfFile dxf = readDxfFile(file);
   checkFinite(file, dxf);
   ImportedPattern out;
-  const std::vector<const DxfBlock*> all = piecesOf(dxf);
-  if (all.empty())
+  std::vector<const DxfBlock*> all = piecesOf(dxf);
+  const auto none = [&] {
     reject(file, "BLOCKS",
            "holds no piece: no block has a polyline on layer 1, which is where AAMA and ASTM D6673 have boundaries. "
            "Export the pattern as DXF-AAMA or DXF-ASTM");
-  const std::string unit = unitOf(file, dxf, choices, out.notes), size = sizeOf(file, dxf, all, choices);
+  };
+  if (all.empty() && largest(dxf).x == 0) none();
+  const std::string unit = unitOf(file, dxf, choices, out.notes);
+  std::vector<DxfBlock> loose;
+  if (all.empty()) {
+    loose = loosePieces(dxf.entities, metresOf(unit));
+    for (const DxfBlock& b : loose) all.push_back(&b);
+    if (all.empty()) none();
+    out.notes.push_back("has no blocks: each closed line of layer 1 in ENTITIES is a piece, with what lies within it");
+  }
+  const std::string size = sizeOf(file, dxf, all, choices);
   std::vector<const DxfBlock*> blocks;
   for (const DxfBlock* b : all)
     if (const std::string its = value(b->entities, "SIZE"); size.empty() || its.empty() || its == size)
@@ -227,7 +239,7 @@ ImportedPattern readDxf(const std::filesystem::path& file, const ImportChoices& 
   DxfCounts counts;
   for (const DxfBlock* b : blocks)
     pattern.panels.push_back(
-        panelOf(file, *b, metresOf(unit) * scaleOf(file, dxf, b->name, out.notes), out.notes, counts));
+        panelOf(file, *b, metresOf(unit) * scaleOf(file, dxf, b->name, out.notes), choices.unfold, out.notes, counts));
   for (std::string& words : counts.words()) out.dropped.push_back(std::move(words));
   std::string style_texts;
   for (const DxfEntity& e : dxf.entities)
@@ -235,6 +247,10 @@ ImportedPattern readDxf(const std::filesystem::path& file, const ImportChoices& 
         said && said->first != "STYLE NAME" && said->first != "UNITS" && said->first != "SAMPLE SIZE")
       style_texts += (style_texts.empty() ? "" : ", ") + said->first;
   if (!style_texts.empty()) out.dropped.push_back("texts of the style: " + style_texts);
+  for (const char* ending : {".rul", ".RUL"})
+    if (std::filesystem::path rules = file; std::filesystem::exists(rules.replace_extension(ending)))
+      out.dropped.push_back("grade rules (" + rules.filename().string() +
+                            " beside it): sizes are read as they are drawn");
   nameApart(pattern.panels, blocks, out.notes);
   try {
     checkPattern(pattern);

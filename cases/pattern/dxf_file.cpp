@@ -5,11 +5,13 @@
 #include <dime/entities/Arc.h>
 #include <dime/entities/Block.h>
 #include <dime/entities/Circle.h>
+#include <dime/entities/Ellipse.h>
 #include <dime/entities/Insert.h>
 #include <dime/entities/LWPolyline.h>
 #include <dime/entities/Line.h>
 #include <dime/entities/Point.h>
 #include <dime/entities/Polyline.h>
+#include <dime/entities/Spline.h>
 #include <dime/entities/Text.h>
 #include <dime/entities/Vertex.h>
 #include <dime/sections/BlocksSection.h>
@@ -20,6 +22,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/nurbs/curve.hpp"
 #include "human/files/read_text.hpp"
 
 namespace gambeson {
@@ -66,8 +69,11 @@ double record(const dimeEntity& e, int code, double otherwise) {
 void readPolyline(dimePolyline& line, DxfEntity& out) {
   out.kind = DxfEntity::Kind::polyline;
   out.closed = (line.getFlags() & dimePolyline::CLOSED) != 0;
+  // Of those that a spline was laid through, its control points stand between the others.
+  const bool has_frame = (line.getFlags() & 4) != 0;
   for (int k = 0; k < line.getNumCoordVertices(); ++k) {
     const dimeVertex* v = line.getCoordVertex(k);
+    if (has_frame && (v->getFlags() & 16) != 0) continue;
     out.points.push_back(flat(v->getCoords()));
     out.bulges.push_back(record(*v, 42, 0));
   }
@@ -95,6 +101,53 @@ void readArc(const dimeArc& arc, DxfEntity& out) {
   out.bulges = {std::tan(0.25 * turn), 0};
 }
 
+/// Lines along a curve over t in 0 .. 1, at both ends and so many times between.
+template <class At>
+void alongCurve(const At& at, int pieces, DxfEntity& out) {
+  out.kind = DxfEntity::Kind::polyline;
+  for (int k = 0; k <= pieces; ++k) out.points.push_back(at(static_cast<double>(k) / pieces));
+  out.bulges.assign(out.points.size(), 0);
+}
+
+/// 128 lines between two knots: areas beside their chords are off by 1/128^2 of themselves.
+void readSpline(const dimeSpline& s, DxfEntity& out) {
+  constexpr int most = 2000, pieces = 128;
+  NurbsCurve c{{s.getDegree(), {}}, {}, {}};
+  if (s.getNumControlPoints() < 2 || s.getNumControlPoints() > most || s.getNumKnots() > 2 * most) return;
+  for (int k = 0; k < s.getNumKnots(); ++k) c.knots.knots.push_back(s.getKnotValue(k));
+  for (int k = 0; k < s.getNumControlPoints(); ++k) {
+    c.points.push_back(flat(s.getControlPoint(k)));
+    c.weights.push_back(s.hasWeights() && k < s.getNumWeights() ? s.getWeight(k) : 1);
+  }
+  try {
+    validate(c);
+  } catch (const InputError&) {
+    return;  // not clamped, say: of another kind, which whoever needs it says
+  }
+  const std::vector<BezierSegment> segments = bezierSegments(c);
+  const auto last = static_cast<double>(segments.size());
+  alongCurve(
+      [&](double t) {
+        const auto k = std::min(segments.size() - 1, static_cast<std::size_t>(t * last));
+        return segments[k].at(t * last - static_cast<double>(k)).point;
+      },
+      pieces * static_cast<int>(segments.size()), out);
+}
+
+void readEllipse(const dimeEllipse& e, DxfEntity& out) {
+  const Vec2 center = flat(e.getCenter()), major = flat(e.getMajorAxisEndpoint());
+  const double ratio = e.getMinorMajorRatio(), start = e.getStartParam();
+  double turn = e.getEndParam() - start;
+  if (!(std::isfinite(turn) && std::abs(turn) < 100)) return;
+  while (turn <= 0) turn += 2 * std::numbers::pi;
+  alongCurve(
+      [&](double t) {
+        const double c = std::cos(start + t * turn), s = ratio * std::sin(start + t * turn);
+        return Vec2{center.x + c * major.x - s * major.y, center.y + c * major.y + s * major.x};
+      },
+      256, out);
+}
+
 DxfEntity entityOf(dimeEntity& e) {
   DxfEntity out;
   out.type = textOf(e.getEntityName());
@@ -108,6 +161,12 @@ DxfEntity entityOf(dimeEntity& e) {
       break;
     case dimeBase::dimeArcType:
       readArc(static_cast<dimeArc&>(e), out);
+      break;
+    case dimeBase::dimeSplineType:
+      readSpline(static_cast<dimeSpline&>(e), out);
+      break;
+    case dimeBase::dimeEllipseType:
+      readEllipse(static_cast<dimeEllipse&>(e), out);
       break;
     case dimeBase::dimeLineType:
       out.kind = DxfEntity::Kind::polyline;

@@ -16,8 +16,8 @@ struct DxfEntity {
   Kind kind = Kind::other;
   std::string type;   ///< "POLYLINE"
   std::string layer;  ///< "1"
-  /// Polylines (LINE and ARC are polylines of two points): points, and tan(angle / 4) of the arc that follows each.
-  /// Circles: the centre. Texts, inserts: where they stand.
+  /// Polylines (LINE and ARC are polylines of two points; SPLINE and ELLIPSE of many): points, and tan(angle / 4) of
+  /// the arc that follows each. Circles: the centre. Texts, inserts: where they stand.
   std::vector<Vec2> points;
   std::vector<double> bulges;
   bool closed = false;

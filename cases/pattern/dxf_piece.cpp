@@ -12,6 +12,7 @@
 #include "tryon/pattern/flat/panel_check.hpp"
 #include "tryon/pattern/flat/panel_geometry.hpp"
 #include "tryon/pattern/flat/turn_panel.hpp"
+#include "tryon/pattern/flat/unfold_panel.hpp"
 
 namespace gambeson {
 namespace {
@@ -19,11 +20,16 @@ namespace {
 constexpr double kNotchOff_m = 5e-3, kAllowance_m = 6e-2, kDeepest_m = 0.05, kCheck = 0.02;
 constexpr std::size_t kMostEntities = 20000;
 
+/// "# 12": the number of a grade rule, at its point.
+bool isGradeRule(const std::string& text) {
+  return text.size() > 1 && text[0] == '#' && text.find_first_not_of(" 0123456789", 1) == std::string::npos;
+}
+
 class Piece {
  public:
-  Piece(const std::filesystem::path& file, const DxfBlock& block, double metres, std::vector<std::string>& notes,
-        DxfCounts& dropped)
-      : file_(file), block_(block), metres_(metres), notes_(notes), dropped_(dropped) {}
+  Piece(const std::filesystem::path& file, const DxfBlock& block, double metres, bool unfolds,
+        std::vector<std::string>& notes, DxfCounts& dropped)
+      : file_(file), block_(block), metres_(metres), unfolds_(unfolds), notes_(notes), dropped_(dropped) {}
 
   Panel read() {
     if (block_.entities.size() > kMostEntities)
@@ -34,6 +40,7 @@ class Piece {
       if (e.layer == "2" && e.kind == DxfEntity::Kind::point) turns_.push_back(at(e));
     loops();
     marks();
+    foldOut();
     return std::move(panel_);
   }
 
@@ -49,6 +56,10 @@ class Piece {
     for (const DxfEntity& e : block_.entities) {
       if (e.kind != DxfEntity::Kind::text || e.text.empty()) continue;
       const auto said = systemText(e);
+      if (isGradeRule(e.text)) {
+        dropped_.add("numbers of grade rules (texts # 1)");
+        continue;
+      }
       if (!said) {
         panel_.annotations.push_back({e.text, at(e)});
         continue;
@@ -59,7 +70,7 @@ class Piece {
         panel_.name = value;
       else if (key == "SIZE")
         panel_.size = value;
-      else if (key == "MATERIAL")
+      else if (key == "MATERIAL" || (key == "FABRIC" && panel_.material.empty()))
         panel_.material = value;
       else if (key == "CATEGORY")
         panel_.region = value;
@@ -208,8 +219,6 @@ class Piece {
     for (const auto& [layer, kind] : lines) {
       const std::vector<DxfChain> chains = chainsOf(block_.entities, layer, metres_);
       for (const DxfChain& c : chains) line(c, kind);
-      if (kind == LineKind::fold && !chains.empty())
-        note("has a mirror line (layer 6); where a half is drawn, unfold it before it is worn");
     }
     const std::vector<DxfChain> grain = chainsOf(block_.entities, "7", metres_);
     if (!grain.empty()) panel_.grain = GrainLine{grain.front().points.front(), grain.front().points.back()};
@@ -234,6 +243,27 @@ class Piece {
     if (e.kind == DxfEntity::Kind::text) return true;
     if (e.kind == DxfEntity::Kind::point) return e.layer == "2";
     return (e.kind == DxfEntity::Kind::polyline || e.kind == DxfEntity::Kind::circle) && lines.contains(e.layer);
+  }
+
+  /// A mirror line along the border of the piece says that a half is drawn.
+  void foldOut() {
+    for (const InternalLine& l : panel_.lines) {
+      if (l.kind != LineKind::fold || l.points_m.size() < 2) continue;
+      Panel whole = panel_;
+      if (!unfold(whole, l.points_m.front(), l.points_m.back())) continue;
+      if (!unfolds_) {
+        note("is drawn as a half, up to its mirror line (layer 6), and read so; --unfold makes it whole");
+        return;
+      }
+      note(fmt::format("is drawn as a half, up to its mirror line (layer 6), and made whole{}",
+                       whole.cut_line.empty() && !panel_.cut_line.empty()
+                           ? "; its cut line is left out, as it does not "
+                             "end on that line"
+                           : ""));
+      panel_ = std::move(whole);
+      check(panel_);
+      return;
+    }
   }
 
   /// The outline as lines, with the edge and the length along it where each starts.
@@ -283,6 +313,7 @@ class Piece {
   const std::filesystem::path& file_;
   const DxfBlock& block_;
   double metres_;
+  bool unfolds_;
   std::vector<std::string>& notes_;
   DxfCounts& dropped_;
   Panel panel_;
@@ -296,16 +327,17 @@ class Piece {
 
 std::optional<std::pair<std::string, std::string>> systemText(const DxfEntity& e) {
   if (e.kind != DxfEntity::Kind::text) return std::nullopt;
-  static const std::set<std::string> keys{"PIECE NAME",      "SIZE",
-                                          "QUANTITY",        "MATERIAL",
-                                          "CATEGORY",        "ANNOTATION",
-                                          "STYLE NAME",      "UNITS",
-                                          "SAMPLE SIZE",     "CREATION DATE",
-                                          "CREATION TIME",   "AUTHOR",
-                                          "PRODUCT",         "GRADING RULE TABLE",
-                                          "VERSION",         "ALTERNATE GRADE RULE TABLE",
-                                          "RULE TABLE",      "DESCRIPTION",
-                                          "GRADE RULE TABLE"};
+  static const std::set<std::string> keys{"PIECE NAME",       "SIZE",
+                                          "QUANTITY",         "MATERIAL",
+                                          "CATEGORY",         "ANNOTATION",
+                                          "STYLE NAME",       "UNITS",
+                                          "SAMPLE SIZE",      "CREATION DATE",
+                                          "CREATION TIME",    "AUTHOR",
+                                          "PRODUCT",          "GRADING RULE TABLE",
+                                          "VERSION",          "ALTERNATE GRADE RULE TABLE",
+                                          "RULE TABLE",       "DESCRIPTION",
+                                          "GRADE RULE TABLE", "FABRIC",
+                                          "TOLERANCE"};
   const std::size_t colon = e.text.find(':');
   if (colon == std::string::npos) return std::nullopt;
   std::string key = e.text.substr(0, colon);
@@ -323,9 +355,9 @@ std::vector<std::string> DxfCounts::words() const {
   return out;
 }
 
-Panel panelOf(const std::filesystem::path& file, const DxfBlock& block, double metres, std::vector<std::string>& notes,
-              DxfCounts& dropped) {
-  return Piece(file, block, metres, notes, dropped).read();
+Panel panelOf(const std::filesystem::path& file, const DxfBlock& block, double metres, bool unfolds,
+              std::vector<std::string>& notes, DxfCounts& dropped) {
+  return Piece(file, block, metres, unfolds, notes, dropped).read();
 }
 
 }  // namespace gambeson

@@ -26,8 +26,12 @@ class DxfCounts {
   std::map<std::string, int> count_;
 };
 
-/// `metres`: length of a 1. Throws InputError with the file, the block and the layer.
-Panel panelOf(const std::filesystem::path& file, const DxfBlock& block, double metres, std::vector<std::string>& notes,
-              DxfCounts& dropped);
+/// `metres`: length of a 1; `unfolds`: halves are made whole. Throws InputError with the file, the block and the layer.
+Panel panelOf(const std::filesystem::path& file, const DxfBlock& block, double metres, bool unfolds,
+              std::vector<std::string>& notes, DxfCounts& dropped);
+
+/// What stands in ENTITIES as blocks, where a file has pieces without blocks: each closed line of layer 1 that lies in
+/// no other, with what lies within it. `metres`: as above.
+std::vector<DxfBlock> loosePieces(const std::vector<DxfEntity>& entities, double metres);
 
 }  // namespace gambeson

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
 #include <ostream>
 
 #include "cases/cad/cad_file.hpp"
@@ -13,6 +14,7 @@
 #include "cases/pattern/cad_panels.hpp"
 #include "cases/pattern/dxf.hpp"
 #include "cases/pattern/garmentcode.hpp"
+#include "cases/pattern/mesh_import.hpp"
 #include "cases/pattern/pattern_file.hpp"
 #include "cases/pattern/svg.hpp"
 #include "cases/runs/results_folder.hpp"
@@ -162,6 +164,38 @@ int importSurfaces(const ImportArguments& a, const CadShape& shape, std::ostream
   return 0;
 }
 
+/// A mesh: a garment of triangles.
+int importTriangles(const ImportArguments& a, std::ostream& out) {
+  const ImportedMesh in = importMesh(a.file, a.choices, nameOf(a.file));
+  if (!a.svg.empty() && in.flat.panels.empty())
+    throw InputError({"command line", 0, "--svg"},
+                     a.file.string() +
+                         " has no uv that is a flat shape of its cloth, so nothing is drawn at 1:1; leave it "
+                         "out, or save the mesh with the uv of its pattern");
+  sayMesh(in, out);
+  say(in.notes, in.dropped, out);
+  if (!a.output.empty()) {
+    writeOwnFile(a.output, clothMeshText(in.file));
+    out << "\nMesh: " << a.output.string() << "\nA case wears it as \"garment\": {\"mesh_file\": {\"path\": \""
+        << a.output.filename().string() << (in.flat.panels.empty() ? "\"}" : "\", \"rest\": \"uv\"}")
+        << ", \"model\": \"triangles\"}\n";
+  }
+  if (!a.svg.empty()) {
+    writeOwnFile(a.svg, patternSvg(in.flat));
+    out << "Drawing: " << a.svg.string() << "\n";
+  }
+  return 0;
+}
+
+/// JSON that says that it is a mesh of ours; what is no JSON is somebody else's to say.
+bool isOurMesh(const std::filesystem::path& file) {
+  if (endingOf(file) != ".json") return false;
+  std::ifstream in(file);
+  std::string start(200, ' ');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return start.find(std::string("\"") + kClothMeshFormat) != std::string::npos;
+}
+
 }  // namespace
 
 ImportedPattern importPattern(const std::filesystem::path& file, const ImportChoices& choices) {
@@ -174,8 +208,7 @@ ImportedPattern importPattern(const std::filesystem::path& file, const ImportCho
   }
   const char* const read =
       "read are specification.json of GarmentCode, DXF-AAMA or ASTM D6673 (.dxf), STEP, IGES and .brep surfaces "
-      "(.step, "
-      ".stp, .igs, .iges, .brep), and patterns that gambeson import wrote";
+      "(.step, .stp, .igs, .iges, .brep), meshes (.obj, .ply), and what gambeson import wrote";
   if (ending != ".json") throw InputError({file.string(), 0, ""}, std::string("is of no format that is read; ") + read);
   const JsonNode root = readJson(file, {.bytes = kPatternBytes});
   if (!choices.size.empty())
@@ -204,8 +237,15 @@ int importToFiles(const ImportArguments& a, std::ostream& out) {
   if (!a.output.empty() && a.output == a.svg)
     throw InputError({"command line", 0, "--svg"}, "is the same file as --output");
   if (!a.choices.unit.empty()) metresOf(a.choices.unit);
+  if (a.choices.unfold && endingOf(a.file) != ".dxf")
+    throw InputError({"command line", 0, "--unfold"},
+                     "has no meaning for " + a.file.string() + "; only DXF has halves");
   if (!a.output.empty()) checkOutput(a.output, "--output", {a.file});
   if (!a.svg.empty()) checkOutput(a.svg, "--svg", {a.file});
+  if (isClothMesh(a.file) || isOurMesh(a.file)) return importTriangles(a, out);
+  if (!a.choices.up.empty() || a.choices.piece > 0)
+    throw InputError({"command line", 0, a.choices.up.empty() ? "--piece" : "--up"},
+                     "has no meaning for " + a.file.string() + "; only meshes need it");
   ImportedPattern in;
   if (CadFormat format; isCadFile(a.file, format)) {
     const CadShape shape = readShape(a.file, a.choices);

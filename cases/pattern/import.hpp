@@ -1,6 +1,6 @@
 #pragma once
 /// `gambeson import`: from the pattern of another program to a pattern's file and a drawing at 1:1; from its surfaces
-/// to a garment's file.
+/// or its mesh to a garment's file.
 
 #include <filesystem>
 #include <iosfwd>
@@ -10,7 +10,8 @@
 namespace gambeson {
 
 struct ImportArguments {
-  /// Of GarmentCode (.json), DXF-AAMA/ASTM (.dxf), CAD (.step, .stp, .igs, .iges, .brep), or a pattern of ours.
+  /// Of GarmentCode (.json), DXF-AAMA/ASTM (.dxf), CAD (.step, .stp, .igs, .iges, .brep), a mesh (.obj,
+  /// .ply), or what this command wrote.
   std::filesystem::path file;
   std::filesystem::path output, svg;  ///< what to write; empty: not
   ImportChoices choices;

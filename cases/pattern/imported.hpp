@@ -12,8 +12,11 @@ namespace gambeson {
 
 /// What files of some formats leave open.
 struct ImportChoices {
-  std::string unit;  ///< of lengths, as parseUnit knows it ("in"); empty: the file's own
-  std::string size;  ///< which of the sizes of a graded pattern; empty: its sample size
+  std::string unit;     ///< of lengths, as parseUnit knows it ("in"); empty: the file's own
+  std::string up;       ///< "y" or "z": which axis of a mesh is up; empty: z
+  std::string size;     ///< which of the sizes of a graded pattern; empty: its sample size
+  int piece = 0;        ///< which of the pieces of a mesh, 1 the largest; 0: all, of which there may be one
+  bool unfold = false;  ///< whether halves of a DXF pattern that are drawn up to their mirror line are made whole
 };
 
 struct ImportedPattern {

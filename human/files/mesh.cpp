@@ -60,21 +60,23 @@ double signedVolume(const TriangleMesh& m) {
   return v;
 }
 
-TriangleMesh importTriangles(const std::filesystem::path& file, double scale) {
+TriangleMeshWithUv importTriangles(const std::filesystem::path& file, double scale, bool with_uv) {
   const auto fail = [&](const std::string& key, const std::string& reason) {
     throw InputError({file.string(), 0, key}, reason);
   };
   Assimp::Importer importer;
   importScene(importer, file);
-  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS |
-                                                          aiComponent_COLORS | aiComponent_TEXCOORDS |
-                                                          aiComponent_BONEWEIGHTS | aiComponent_ANIMATIONS |
-                                                          aiComponent_TEXTURES | aiComponent_LIGHTS |
-                                                          aiComponent_CAMERAS | aiComponent_MATERIALS);
+  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS,
+                              aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
+                                  (with_uv ? aiComponent_NORMALS : aiComponent_TEXCOORDS) | aiComponent_BONEWEIGHTS |
+                                  aiComponent_ANIMATIONS | aiComponent_TEXTURES | aiComponent_LIGHTS |
+                                  aiComponent_CAMERAS | aiComponent_MATERIALS);
   const aiScene& scene = processScene(
       importer,
       aiProcess_RemoveComponent | aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices, file);
-  TriangleMesh all;
+  TriangleMeshWithUv out;
+  TriangleMesh& all = out.mesh;
+  for (unsigned k = 0; k < scene.mNumMeshes; ++k) with_uv = with_uv && scene.mMeshes[k]->HasTextureCoords(0);
   for (unsigned k = 0; k < scene.mNumMeshes; ++k) {
     const aiMesh& mesh = *scene.mMeshes[k];
     const int first = static_cast<int>(all.vertices.size());
@@ -86,6 +88,11 @@ TriangleMesh importTriangles(const std::filesystem::path& file, double scale) {
           fail(fmt::format("vertex {}", all.vertices.size()),
                fmt::format("coordinate {} m is not within {} m", x[c], largest_coordinate_m));
       all.vertices.push_back(x);
+      if (!with_uv) continue;
+      const aiVector3D& uv = mesh.mTextureCoords[0][i];
+      if (!std::isfinite(uv.x + uv.y))
+        fail(fmt::format("vertex {}", all.vertices.size() - 1), "has uv that is not finite");
+      out.uv.push_back({uv.x, uv.y});
     }
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
       const aiFace& face = mesh.mFaces[i];
@@ -100,12 +107,10 @@ TriangleMesh importTriangles(const std::filesystem::path& file, double scale) {
       all.triangles.push_back(t);
     }
   }
-  return all;
+  return out;
 }
 
-}  // namespace
-
-TriangleMesh loadTriangles(const std::filesystem::path& file, double scale) {
+TriangleMeshWithUv load(const std::filesystem::path& file, double scale, bool with_uv) {
   const auto fail = [&](const std::string& key, const std::string& reason) {
     throw InputError({file.string(), 0, key}, reason);
   };
@@ -114,14 +119,24 @@ TriangleMesh loadTriangles(const std::filesystem::path& file, double scale) {
   if (std::find(known.begin(), known.end(), extensionOf(file)) == known.end())
     fail("", "meshes are read from .obj, .ply, .stl, .gltf, .glb");
   BytesIn in = readApart(file, limitsFor(file), [&](BytesOut& out) {
-    const TriangleMesh mesh = importTriangles(file, scale);
-    out.put(mesh.vertices);
-    out.put(mesh.triangles);
+    const TriangleMeshWithUv read = importTriangles(file, scale, with_uv);
+    out.put(read.mesh.vertices);
+    out.put(read.mesh.triangles);
+    out.put(read.uv);
   });
-  TriangleMesh mesh;
-  in.get(mesh.vertices);
-  in.get(mesh.triangles);
-  return mesh;
+  TriangleMeshWithUv out;
+  in.get(out.mesh.vertices);
+  in.get(out.mesh.triangles);
+  in.get(out.uv);
+  return out;
+}
+
+}  // namespace
+
+TriangleMesh loadTriangles(const std::filesystem::path& file, double scale) { return load(file, scale, false).mesh; }
+
+TriangleMeshWithUv loadTrianglesWithUv(const std::filesystem::path& file, double scale) {
+  return load(file, scale, true);
 }
 
 TriangleMesh loadMesh(const std::filesystem::path& file, double scale) {

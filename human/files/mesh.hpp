@@ -12,6 +12,12 @@ namespace gambeson {
 TriangleMesh loadMesh(const std::filesystem::path& file, double scale = 1);
 /// The same as the file has them: vertices at one place stay apart, in the file's order.
 TriangleMesh loadTriangles(const std::filesystem::path& file, double scale = 1);
+/// The same with what each vertex has of the first uv; nothing where the file has none.
+struct TriangleMeshWithUv {
+  TriangleMesh mesh;
+  std::vector<Vec2> uv;
+};
+TriangleMeshWithUv loadTrianglesWithUv(const std::filesystem::path& file, double scale = 1);
 
 /// The files that a glTF file draws its geometry from: its buffers that are not within itself. None for other files.
 /// Throws InputError.

@@ -16,6 +16,7 @@ import subprocess
 import sys
 import json
 
+import iges_text
 from common import SOURCE, Folder, check, run
 
 DATA = pathlib.Path(os.environ.get("GAMBESON_DATA", SOURCE / ".." / "shared" / "data")).resolve() / "real" / "cad"
@@ -94,6 +95,22 @@ def main():
             for name in ("panels", "pierced", "torus"):
                 compare(folder / f"{name}.{end}", folder)
         compare(folder / "box_inch.step", folder, [6000, 6000, 3000, 3000, 1800, 1800], [100] * 4 + [60] * 4 + [30] * 4)
+        slant, small = math.pi * 70 * math.hypot(100, 30), math.pi * 20 * 20
+        ball = 4 * math.pi * 50 * 50
+        for end in ("step", "igs", "brep"):
+            compare(folder / f"cone.{end}", folder, [slant, disc, small])
+            compare(folder / f"tip.{end}", folder, [math.pi * 50 * math.hypot(100, 50), disc])
+            compare(folder / f"sphere.{end}", folder, [ball])
+            for name in ("dome", "leaf", "drawn", "turned", "vase"):
+                compare(folder / f"{name}.{end}", folder)
+            compare(folder / f"assembly.{end}", folder, 2 * [6000, 6000, 3000, 3000, 1800, 1800], 2 * ([100] * 4 + [60] * 4 + [30] * 4))
+        compare(folder / "assembly_inch.step", folder, 2 * [6000, 6000, 3000, 3000, 1800, 1800])
+        for unit in ("MM", "INCH", "M"):
+            for name in (f"ap203_{unit}.step", f"ap214_{unit}.step", f"ap242_{unit}.step", f"iges144_{unit}.igs", f"iges186_{unit}.igs"):
+                compare(folder / name, folder, [pipe, disc, disc], [rim, rim, 200])
+        for name, text, areas in iges_text.files():
+            (folder / name).write_text(text)
+            compare(folder / name, folder, areas)
         real = sorted(p for p in DATA.glob("*") if p.suffix in (".igs", ".iges", ".brep"))
         if not real:
             print(f"no public data at {DATA}: only files of our own making", file=sys.stderr)

@@ -2,12 +2,13 @@
 """Mutated inputs of every kind through the binary: no signal, no hang, no message as long as the file, no memory without
 bounds, and nothing that `check` accepts and `run` refuses as input.
 
-    fuzz.py [GAMBESON] [--count N] [--seed S] [--kinds a,b] [--state DIR] [--seconds T]
+    fuzz.py [GAMBESON] [--count N] [--seed S] [--kinds a,b] [--state DIR] [--seconds T] [--warm WARM_COMMAND]
 
 Mutation i of a kind is the same wherever it is made (seed, kind and i are all that it depends on; where the command under test makes
 the files itself, what it makes too). With --state the
 counts and the broken files of faults are kept in DIR, and a later call goes on where this one ended. --seconds ends it
-after so long. Prints how many of each kind were accepted, refused and answered wrongly; exit 1 where any was.
+after so long. --warm splits the calls off a program that has started already (tests/tools/warm_command.cpp), which for readers of
+foreign formats is some ten times as fast; what it finds wrong is asked of the command itself again. Prints how many of each kind were accepted, refused and answered wrongly; exit 1 where any was.
 """
 
 import argparse
@@ -107,6 +108,37 @@ def call(arguments, folder, longest_s):
     return Answer(process.returncode, text, used.ru_utime + used.ru_stime, time.monotonic() - start, used.ru_maxrss / 1024, in_time)
 
 
+class Warm:
+    """Calls through warm_command, which has read the files of CAD programs that the kinds have."""
+
+    def __init__(self, program, seeds):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="gambeson_warm_"))
+        files = []
+        for name, content in seeds.items():
+            (self.folder / name).write_bytes(content if isinstance(content, bytes) else content.encode())
+            files.append(self.folder / name)
+        environment = dict(os.environ, OMP_NUM_THREADS="1", OMP_WAIT_POLICY="passive")
+        self.process = subprocess.Popen([program, *files], env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                        stderr=subprocess.DEVNULL, text=True, errors="replace")
+
+    def __call__(self, arguments, folder, longest_s):
+        start = time.monotonic()
+        err = self.folder / "stderr"
+        self.process.stdin.write("\t".join(map(str, [folder, err, longest_s, 15 * longest_s, *arguments])) + "\n")
+        self.process.stdin.flush()
+        # OpenCASCADE prints to standard output as it reads what warms it.
+        while not re.fullmatch(r"-?\d+ [0-9.e+-]+ \d+ [01]", line := self.process.stdout.readline().strip()):
+            if self.process.poll() is not None:
+                sys.exit("warm_command has ended")
+        status, cpu_s, kilobytes, in_time = line.split()
+        return Answer(int(status), err.read_text("utf-8", "replace"), float(cpu_s), time.monotonic() - start, int(kilobytes) / 1024, in_time == "1")
+
+    def end(self):
+        self.process.stdin.close()
+        self.process.wait()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
 def wrong(answer, longest_s):
     """What is wrong with any answer, or None."""
     if not answer.in_time:
@@ -129,7 +161,7 @@ def wrong(answer, longest_s):
     return None
 
 
-def one(kind, number, seed, keep):
+def one(kind, number, seed, keep, call=call):
     """Mutation `number` of a kind: what became of it, and what was wrong or None."""
     chance = random.Random(f"{seed} {kind.name} {number}")
     folder = pathlib.Path(tempfile.mkdtemp(prefix="gambeson_fuzz_"))
@@ -164,6 +196,12 @@ def one(kind, number, seed, keep):
         shutil.rmtree(folder, ignore_errors=True)
 
 
+def keep(folder, state):
+    unfinished = folder / "state.json.tmp"
+    unfinished.write_text(json.dumps(state, indent=1))
+    unfinished.replace(folder / "state.json")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("gambeson", nargs="?")
@@ -172,6 +210,7 @@ def main():
     parser.add_argument("--kinds", default="")
     parser.add_argument("--state", type=pathlib.Path)
     parser.add_argument("--seconds", type=float, default=float("inf"))
+    parser.add_argument("--warm", type=pathlib.Path)
     options = parser.parse_args()
     chosen = [k for k in kinds() if not options.kinds or k.name in options.kinds.split(",")]
     state = {"done": 0, "counts": {}, "faults": []}
@@ -184,20 +223,28 @@ def main():
             what, fault = one(kind, -1, options.seed, None)
             if what == "refused" or fault:
                 sys.exit(f"the unbroken files of {kind.name} are not accepted")
+    caller = call
+    if options.warm:
+        caller = Warm(options.warm.resolve(), {k.name + "_" + k.broken: k.files[k.broken] for k in chosen
+                                               if k.command[0] == "import" and k.broken.endswith((".step", ".igs", ".brep"))})
     start = time.monotonic()
     while state["done"] < options.count and time.monotonic() - start < options.seconds:
         kind, number = chosen[state["done"] % len(chosen)], state["done"] // len(chosen)
-        what, fault = one(kind, number, options.seed, options.state)
+        what, fault = one(kind, number, options.seed, options.state, caller)
+        if fault and options.warm:
+            what, fault = one(kind, number, options.seed, options.state)
         counts = state["counts"].setdefault(kind.name, collections.Counter())
         counts[what] = counts.get(what, 0) + 1
         if fault:
             counts["wrong"] = counts.get("wrong", 0) + 1
             state["faults"].append(f"{kind.name} {number}: {fault}")
         state["done"] += 1
-        if options.state:
-            unfinished = options.state / "state.json.tmp"
-            unfinished.write_text(json.dumps(state, indent=1))
-            unfinished.replace(options.state / "state.json")
+        if options.state and (state["done"] % 50 == 0 or fault):
+            keep(options.state, state)
+    if options.state:
+        keep(options.state, state)
+    if options.warm:
+        caller.end()
     words = ["accepted", "run", "refused", "not built", "wrong"]
     print(f"{'kind':16}" + "".join(f"{w:>11}" for w in words))
     for name, counts in state["counts"].items():

@@ -6,6 +6,7 @@ import math
 import struct
 
 import fuzz_bodies
+import iges_text
 from common import SOURCE, Folder, run
 
 LIBRARY = SOURCE / "cases/library"
@@ -262,6 +263,59 @@ def dxf():
             + "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" + insert("F") + insert("B") + text("STYLE NAME: s") + text("UNITS: METRIC") + "0\nENDSEC\n0\nEOF\n")
 
 
+def uv_tube():
+    """A garment of two panels, each a half of a tube of 8 sides: OBJ in cm with materials and uv."""
+    points, uv, faces, side = "", "", "", 2 * 15 * math.sin(math.pi / 8)
+    for half in (0, 1):
+        faces += f"usemtl {('front', 'back')[half]}\n"
+        for j in range(3):
+            for i in range(5):
+                angle = math.pi * (half + i / 4)
+                points += f"v {15 * math.cos(angle):.6f} {15 * math.sin(angle):.6f} {20 * j}\n"
+                uv += f"vt {(i if half == 0 else 4 - i) * side / 50:.6f} {20 * j / 50:.6f}\n"
+        for j in range(2):
+            for i in range(4):
+                a = 15 * half + 5 * j + i + 1
+                faces += "f " + " ".join(f"{k}/{k}" for k in (a, a + 1, a + 6, a + 5)) + "\n"
+    return points + uv + faces
+
+
+UV_PLY = ("ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nproperty float s\nproperty float t\n"
+          "element face 4\nproperty list uchar int vertex_indices\nend_header\n0 0 0 0 0\n0.2 0 0 1 0\n0.2 0.2 0 1 1\n0 0.2 0 0 1\n0.1 0.1 0.01 0.5 0.5\n"
+          "3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n")
+
+
+def dxf_parts():
+    """A half with its border in parts, by a spline and an arc, in two nested sizes, and its mirror line, with rule numbers."""
+    at = lambda x, y: f"10\n{x}\n20\n{y}\n"
+    text = lambda words, layer=1: f"0\nTEXT\n8\n{layer}\n{at(5, 5)}40\n.25\n1\n{words}\n7\nSTANDARD\n"
+    line = lambda layer, points: (f"0\nPOLYLINE\n8\n{layer}\n66\n1\n70\n0\n" + "".join(f"0\nVERTEX\n8\n{layer}\n{at(*p)}" for p in points) + "0\nSEQEND\n")
+    blocks = ""
+    for size, w in (("36", 10), ("38", 11)):
+        spline = "0\nSPLINE\n8\n1\n70\n8\n71\n2\n72\n6\n73\n3\n74\n0\n" + "".join(f"40\n{k}\n" for k in (0, 0, 0, 1, 1, 1))
+        spline += "".join(f"{at(x, y)}30\n0\n" for x, y in ((w, 0), (w + 2, 6), (w, 12)))
+        arc = f"0\nARC\n8\n1\n{at(0, 12)}40\n{w}\n50\n0\n51\n90\n"
+        points = "".join(f"0\nPOINT\n8\n2\n{at(x, y)}" for x, y in ((0, 0), (w, 0), (w, 12), (0, 12 + w)))
+        piece = (text("Piece Name: HALF") + text(f"SIZE: {size}") + text("# 12", 2) + line(1, [(0, 0), (w / 2, 0), (w, 0)]) + spline + arc
+                 + line(1, [(0, 12 + w), (0, 0)]) + line(6, [(0, 0), (0, 12 + w)]) + points + f"0\nLINE\n8\n7\n{at(3, 1)}11\n3\n21\n9\n")
+        blocks += f"0\nBLOCK\n8\n0\n2\nHALF_{size}\n70\n64\n{at(0, 0)}{piece}0\nENDBLK\n8\n0\n"
+    return ("0\nSECTION\n2\nHEADER\n0\nENDSEC\n0\nSECTION\n2\nBLOCKS\n" + blocks + "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" + text("Sample Size: 36")
+            + text("Units: ENGLISH") + "0\nENDSEC\n0\nEOF\n")
+
+
+def lab_loop():
+    """A raw loop of bending: curvature up, down, and up again."""
+    way = [0.15 * i for i in range(-16, 17)]
+    rows = [(k, 0.17 * k + 0.07 * sign) for sign, ks in ((1, way), (-1, way[::-1]), (1, way)) for k in ks]
+    return "curvature_per_cm,moment_gf_cm_per_cm\n" + "".join(f"{k:.2f},{m:.5f}\n" for k, m in rows)
+
+
+LAB_POINTS = """{"source": "a laboratory, 2026",
+ "tension_weft": [[0.005, "10 N/m"], [0.01, "25 N/m"], [0.02, "80 N/m"], [0.04, "300 N/m"], [0.05, "490 N/m"]],
+ "tension_warp": [[0.005, "12 N/m"], [0.01, "30 N/m"], [0.02, "95 N/m"], [0.04, "350 N/m"]]}
+"""
+
+
 class Kind:
     """One file to break among those beside it, and the commands that read it. `made`: a command that makes more files of those before the
     first of them is broken."""
@@ -319,6 +373,7 @@ def kinds():
     kept = json.dumps({**json.loads(reference), "id": "cloth", "case": json.loads(on_ball), "runs": [{"name": "a"}], "checks": [
         {"kind": "value", "quantity": "time", "unit": "s", "of": {"run": "a", "summary": "recorded_to_s"}, "reference": 0.01, "relative": 0.1},
         {"kind": "value", "quantity": "push", "unit": "N", "of": {"run": "a", "table": "contact.csv", "column": "ball_x_N", "at": 0.005}, "at_least": -10}]})
+    denim = {"a.card.json": (LIBRARY / "cards/denim_a.card.json").read_text()}
     joint_map = (SOURCE / "human/data/map_gait2392.json").read_text()
     bones_map = (SOURCE / "human/data/map_snu_woody.json").read_text()
     return [
@@ -403,6 +458,16 @@ def kinds():
         Kind("import_dxf", "a.dxf", {"a.dxf": dxf()}, command=importing("a.dxf")),
         Kind("import_step", "a.step", {"a.step": (CAD / "cylinder.step").read_text()}, command=["import", "a.step", "-o", "written.json"]),
         Kind("import_iges", "a.igs", {"a.igs": (CAD / "panels.igs").read_text()}, command=["import", "a.igs", "-o", "written.json"]),
+        Kind("import_iges_trimmed", "a.igs", {"a.igs": {n: t for n, t, _ in iges_text.files()}["trimmed_INCH.igs"]}, command=["import", "a.igs", "-o", "written.json"]),
+        Kind("import_brep", "a.brep", {"a.brep": (CAD / "half_pipe.brep").read_text()}, command=["import", "a.brep", "-o", "written.json"]),
+        Kind("import_dxf_parts", "a.dxf", {"a.dxf": dxf_parts()}, command=[*importing("a.dxf"), "--unfold"]),
+        Kind("import_obj", "a.obj", {"a.obj": uv_tube()}, command=[*importing("a.obj"), "--unit", "cm"]),
+        Kind("import_ply", "a.ply", {"a.ply": UV_PLY}, command=importing("a.ply")),
+        Kind("import_mesh", "b.json", {"a.obj": uv_tube()}, made=["import", "a.obj", "-o", "b.json", "--unit", "cm"], command=importing("b.json")),
+        Kind("mesh_file_json", "b.json", {"case.json": worn("b.json", "")["case.json"], "a.obj": uv_tube()}, made=["import", "a.obj", "-o", "b.json", "--unit", "cm"], run=True),
+        Kind("card", "a.card.json", {"a.card.json": (LIBRARY / "cards/denim_a.card.json").read_text()}, command=["check", "a.card.json"]),
+        Kind("lab_loop", "loop.csv", {**denim, "loop.csv": lab_loop()}, command=["fabric", "a.card.json", "--fit", "loop.csv", "-o", "out.json"]),
+        Kind("lab_points", "points.json", {**denim, "points.json": LAB_POINTS}, command=["fabric", "a.card.json", "--fit", "points.json", "-o", "out.json"]),
         Kind("import_pattern", "b.json", {"a.json": GARMENTCODE}, made=["import", "a.json", "-o", "b.json"], command=importing("b.json")),
         Kind("verify_checks", "refs/strip.json", {"refs/strip.json": json.dumps(STRIP, indent=1)}, command=verifying),
         Kind("verify_kept", "verified/cloth/a/summary.json", {"refs/cloth.json": kept}, made=verifying, command=[*verifying, "--results", "verified"]),

@@ -5,7 +5,8 @@ lengths of seams within 0.1 %.
     patterns.py GAMBESON
 
 Reads GarmentCode and DXF by itself: curves sampled at 20,000 points, areas by the shoelace formula, lengths as sums of
-chords. Compares what the command prints, and what its file says, sampled likewise. Files of others are in the public data;
+chords. Compares what the command prints, and what its file says, sampled likewise. Of meshes it reads vertices and faces: their area, the
+length of edges that one triangle has, and the area of their uv. Files of others are in the public data;
 without these a small file of our own making is all there is. The second import, of the written file, must write the same
 bytes.
 """
@@ -19,7 +20,7 @@ import re
 import sys
 
 from common import SOURCE, Folder, check, run
-from fuzz_seeds import GARMENTCODE, dxf
+from fuzz_seeds import GARMENTCODE, dxf, uv_tube
 
 DATA = pathlib.Path(os.environ.get("GAMBESON_DATA", SOURCE / ".." / "shared" / "data")).resolve() / "real" / "garment"
 SAMPLES = 20000
@@ -203,8 +204,53 @@ def compare(file, folder):
     print(f"{file.name}: {len(panels)} panels, {len(seams)} seams, at most {100 * worst:.4f} % off")
 
 
+def compare_mesh(file, folder, unit, *options):
+    """`unit`: cm of a 1."""
+    points, uv, triangles = [], [], []
+    for line in file.read_text().splitlines():
+        words = line.split()
+        if words and words[0] == "v":
+            points.append(tuple(unit * float(x) for x in words[1:4]))
+        elif words and words[0] == "vt":
+            uv.append(tuple(map(float, words[1:3])))
+        elif words and words[0] == "f":
+            corners = [[int(k) - 1 if k else -1 for k in w.split("/")[:2]] for w in words[1:]]
+            triangles += [(corners[0], corners[k], corners[k + 1]) for k in range(1, len(corners) - 1)]
+    area = flat = 0
+    edges = {}
+    for t in triangles:
+        a, b, c = (points[k[0]] for k in t)
+        ab, ac = [y - x for x, y in zip(a, b)], [y - x for x, y in zip(a, c)]
+        area += math.hypot(ab[1] * ac[2] - ab[2] * ac[1], ab[2] * ac[0] - ab[0] * ac[2], ab[0] * ac[1] - ab[1] * ac[0]) / 2
+        for p, q in ((a, b), (b, c), (c, a)):
+            key = tuple(sorted((tuple(round(x, 6) for x in p), tuple(round(x, 6) for x in q))))
+            edges[key] = edges.get(key, 0) + 1
+        if len(t[0]) > 1:
+            (u, v), (w, x), (y, z) = (uv[k[1]] for k in t)
+            flat += abs((w - u) * (z - v) - (y - u) * (x - v)) / 2
+    border = sum(math.dist(*e) for e, count in edges.items() if count == 1)
+    out = folder / f"{file.stem}.mesh.json"
+    done = run("import", file, "-o", out, *options)
+    check(done.returncode == 0, f"{file.name}: {done.returncode} {done.stderr}")
+    rows = [r.split() for r in re.search(r"\npatch .*\n((?:.+\n)+)", done.stdout).group(1).splitlines()]
+    worst = near(sum(float(r[2]) for r in rows), area, f"{file.name}: area")
+    lengths = re.findall(r"^border_\d+ +([0-9.]+)$", done.stdout, re.M)
+    worst = near(sum(map(float, lengths)), border, f"{file.name}: borders", worst)
+    scale = re.search(r"a 1 of it is ([0-9.e+-]+) m", done.stdout)
+    if scale:
+        worst = near(sum(float(r[3]) for r in rows), flat * (100 * float(scale.group(1))) ** 2, f"{file.name}: flat area", worst)
+    again = folder / f"{file.stem}.mesh2.json"
+    done = run("import", out, "-o", again)
+    kept = json.loads(out.read_text())
+    check(done.returncode == 0 and all(json.loads(again.read_text())[k] == kept[k] for k in ("vertices_m", "patches", "edges")),
+          f"{file.name}: not the same when read again {done.stderr}")
+    print(f"{file.name}: {len(rows)} patches, {len(lengths)} borders, at most {100 * worst:.4f} % off")
+
+
 def main():
     with Folder() as folder:
+        (folder / "tube.obj").write_text(uv_tube())
+        compare_mesh(folder / "tube.obj", folder, 1, "--unit", "cm")
         (folder / "small_specification.json").write_text(GARMENTCODE)
         (folder / "small.dxf").write_text(dxf())
         files = [folder / "small_specification.json", folder / "small.dxf"]

@@ -18,7 +18,10 @@
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
+#include <BRepPrimAPI_MakePrism.hxx>
+#include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRepPrimAPI_MakeTorus.hxx>
 #include <BRepTools.hxx>
@@ -26,16 +29,20 @@
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <GCPnts_AbscissaPoint.hxx>
+#include <GeomAPI_PointsToBSpline.hxx>
+#include <Geom_BSplineCurve.hxx>
 #include <IGESControl_Reader.hxx>
 #include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
 #include <Poly_Triangulation.hxx>
 #include <STEPControl_Reader.hxx>
 #include <STEPControl_Writer.hxx>
+#include <TColgp_Array1OfPnt.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -150,6 +157,67 @@ TopoDS_Wire circle(const gp_Pnt& centre, double radius, bool reversed) {
   return BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(c));
 }
 
+TopoDS_Edge spline(const std::vector<gp_Pnt>& points) {
+  TColgp_Array1OfPnt all(1, static_cast<int>(points.size()));
+  for (std::size_t k = 0; k < points.size(); ++k) all.SetValue(static_cast<int>(k) + 1, points[k]);
+  const Handle(Geom_BSplineCurve) curve = GeomAPI_PointsToBSpline(all).Curve();
+  return BRepBuilderAPI_MakeEdge(curve);
+}
+
+/// Shapes of the sorts that CAD programs have beside these, each as STEP in several schemas and units and as IGES of
+/// trimmed surfaces (144) or B-rep entities (186) in several units.
+void makeMore(const std::string& folder) {
+  const auto in = [&](const char* name) { return folder + "/" + name; };
+  write(BRepPrimAPI_MakeCone(50, 20, 100).Shape(), in("cone"));
+  write(BRepPrimAPI_MakeCone(50, 0, 100).Shape(), in("tip"));
+  write(BRepPrimAPI_MakeSphere(50).Shape(), in("sphere"));
+  write(BRepPrimAPI_MakeSphere(50, 0.3).Shape(), in("dome"));
+  // A plane cut by a spline, with a hole.
+  const gp_Pnt a(0, 0, 0), b(200, 0, 0);
+  BRepBuilderAPI_MakeWire border(spline({b, gp_Pnt(230, 80, 0), gp_Pnt(150, 160, 0), gp_Pnt(60, 150, 0), a}),
+                                 BRepBuilderAPI_MakeEdge(a, b));
+  BRepBuilderAPI_MakeFace leaf(border.Wire(), true);
+  leaf.Add(circle(gp_Pnt(120, 60, 0), 20, true));
+  write(leaf.Face(), in("leaf"));
+  // A spline drawn along a line, and one turned about an axis, half way and all the way.
+  const TopoDS_Edge wave = spline({gp_Pnt(80, 0, 0), gp_Pnt(100, 0, 60), gp_Pnt(70, 0, 120), gp_Pnt(90, 0, 200)});
+  write(BRepPrimAPI_MakePrism(wave, gp_Vec(0, 150, 0)).Shape(), in("drawn"));
+  const gp_Ax1 axis(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1));
+  write(BRepPrimAPI_MakeRevol(wave, axis, 3.0).Shape(), in("turned"));
+  write(BRepPrimAPI_MakeRevol(wave, axis).Shape(), in("vase"));
+  // Two of one part, moved and turned, in an assembly.
+  const TopoDS_Shape part = BRepPrimAPI_MakeBox(100, 60, 30).Shape();
+  gp_Trsf there;
+  there.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(1, 2, 3)), 0.7);
+  gp_Trsf away;
+  away.SetTranslation(gp_Vec(300, 50, -20));
+  TopoDS_Compound both;
+  BRep_Builder builder;
+  builder.MakeCompound(both);
+  builder.Add(both, part.Moved(TopLoc_Location(there)));
+  builder.Add(both, part.Moved(TopLoc_Location(away * there)));
+  Interface_Static::SetIVal("write.step.assembly", 1);
+  write(both, in("assembly"));
+  write(both, in("assembly_inch"), "INCH");
+  Interface_Static::SetIVal("write.step.assembly", 0);
+  const TopoDS_Shape cylinder = BRepPrimAPI_MakeCylinder(50, 200).Shape();
+  for (const auto& [name, schema] : {std::pair("ap203", "AP203"), {"ap214", "AP214IS"}, {"ap242", "AP242DIS"}})
+    for (const char* unit : {"MM", "INCH", "M"}) {
+      Interface_Static::SetCVal("write.step.schema", schema);
+      Interface_Static::SetCVal("write.step.unit", unit);
+      STEPControl_Writer step;
+      step.Transfer(cylinder, STEPControl_AsIs);
+      step.Write((folder + "/" + name + "_" + unit + ".step").c_str());
+    }
+  for (const int mode : {0, 1})
+    for (const char* unit : {"MM", "INCH", "M"}) {
+      IGESControl_Writer iges(unit, mode);
+      iges.AddShape(cylinder);
+      iges.ComputeModel();
+      iges.Write((folder + "/iges" + (mode == 0 ? "144_" : "186_") + unit + ".igs").c_str());
+    }
+}
+
 int make(const std::string& folder) {
   const auto in = [&](const char* name) { return folder + "/" + name; };
   write(BRepPrimAPI_MakeBox(100, 60, 30).Shape(), in("box"));
@@ -174,6 +242,7 @@ int make(const std::string& folder) {
   write(sewing.SewedShape(), in("panels"));
   // Nothing but a curve.
   write(circle(gp_Pnt(0, 0, 0), 25, false), in("curve"));
+  makeMore(folder);
   return 0;
 }
 

@@ -12,7 +12,6 @@
 #include "cases/wear/results/results.hpp"
 #include "cases/wear/results/write.hpp"
 #include "core/error.hpp"
-#include "core/io/iges.hpp"
 #include "core/io/own_file.hpp"
 
 namespace gambeson {
@@ -33,18 +32,17 @@ Trim trimOf(const PatchLayout& layout) {
   return trim;
 }
 
-/// The recorded patches where a frame has their control points.
-std::vector<IgesSurface> surfacesOf(const RecordingLayout& layout, const Frame& frame, const char* option) {
+/// The recorded patches where a frame has their control points, as faces.
+CadShape facesOf(const RecordingLayout& layout, const Frame& frame, const char* option) {
   if (layout.patches.empty())
     throw InputError({"command line", 0, option}, "needs cloth of NURBS patches; this run has none");
   const Field* position = nullptr;
   for (const Field& f : frame.control_fields)
     if (f.name == "position") position = &f;
-  std::vector<IgesSurface> surfaces;
+  CadShape shape;
   std::size_t at = 0;
   for (const PatchLayout& p : layout.patches) {
-    surfaces.push_back({p.name, patchOf(p), trimOf(p)});
-    NurbsPatch& patch = surfaces.back().patch;
+    NurbsPatch patch = patchOf(p);
     patch.points.resize(static_cast<std::size_t>(patch.size()));
     if (!position || position->data.size() < at + 3 * patch.points.size())
       throw RunError("the recording's frames have no control points of its patches");
@@ -52,8 +50,9 @@ std::vector<IgesSurface> surfacesOf(const RecordingLayout& layout, const Frame& 
       x = {position->data[at], position->data[at + 1], position->data[at + 2]};
       at += 3;
     }
+    for (CadFace& f : cadFaces(p.name, patch, trimOf(p))) shape.faces.push_back(std::move(f));
   }
-  return surfaces;
+  return shape;
 }
 
 /// "walk.glb: 42 frames, 8.1 MB".
@@ -83,13 +82,6 @@ void writeObjs(const Scenario& s, const RecordingReader& recording, AnimationOpt
              numbered(file.string(), count - 1), scene.time_s.front(), scene.time_s.back());
 }
 
-void writeStep(const std::filesystem::path& file, const std::string& title, const std::vector<IgesSurface>& surfaces) {
-  CadShape shape;
-  for (const IgesSurface& s : surfaces)
-    for (CadFace& f : cadFaces(s.name, s.patch, s.trim)) shape.faces.push_back(std::move(f));
-  writeCad(file, title, shape);
-}
-
 }  // namespace
 
 const std::vector<ExportFormat>& exportFormats() {
@@ -97,8 +89,8 @@ const std::vector<ExportFormat>& exportFormats() {
   static const std::vector<ExportFormat> formats{
       {{".glb"}, "an animation (binary glTF 2.0): body, garments, colours of one time", &O::glb},
       {{".obj"}, "a file of each frame, walk_0001.obj ..., with body and garments as groups", &O::obj},
-      {{".igs", ".iges"}, "the garment at one time as NURBS surfaces, for CAD (IGES 5.3)", &O::iges},
-      {{".step", ".stp"}, "the same as sewn shells (STEP AP214)", &O::step}};
+      {{".igs", ".iges"}, "the garment at one time as NURBS surfaces in sewn shells, for CAD (IGES 5.3)", &O::iges},
+      {{".step", ".stp"}, "the same as STEP (AP214)", &O::step}};
   return formats;
 }
 
@@ -115,14 +107,13 @@ int exportResults(const ExportOptions& o) {
   if (!o.obj.empty()) writeObjs(*scenario, recording, how, o.obj);
   if (!o.step.empty() || !o.iges.empty()) {
     const std::string title = fmt::format("{}, {:.3f} s", scenario->definition.name, recording.time(frame));
-    const std::vector<IgesSurface> surfaces =
-        surfacesOf(recording.layout(), recording.frame(frame), o.step.empty() ? "--iges" : "--step");
-    if (!o.iges.empty()) writeIges(o.iges, title, surfaces);
-    if (!o.step.empty()) writeStep(o.step, title, surfaces);
+    const CadShape shape = facesOf(recording.layout(), recording.frame(frame), o.step.empty() ? "--iges" : "--step");
     for (const std::filesystem::path& file : {o.step, o.iges})
-      if (!file.empty())
+      if (!file.empty()) {
+        writeCad(file, title, shape);
         fmt::print("{}: the garment at {:.3f} s, {} surfaces\n", file.string(), recording.time(frame),
                    scenario->patch_names.size());
+      }
   }
   if (!o.opensim.empty()) {
     if (!scenario->human)

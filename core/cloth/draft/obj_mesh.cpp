@@ -34,7 +34,7 @@ class ObjReader {
  public:
   explicit ObjReader(const std::filesystem::path& file) : file_(file) {}
 
-  ClothMesh read() {
+  ObjContent read() {
     std::ifstream in(file_);
     if (!in) throw InputError({file_.string(), 0, ""}, "cannot be read");
     for (std::string line; std::getline(in, line);) {
@@ -44,13 +44,14 @@ class ObjReader {
       if (!words.empty()) take(words);
     }
     if (in.bad()) throw InputError({file_.string(), line_, ""}, "cannot be read to its end");
-    return finish();
+    content_.mesh = finish();
+    return std::move(content_);
   }
 
  private:
   struct Face {
     std::array<int, 3> v{}, vt{};
-    std::string patch;
+    std::string group, material, patch;
   };
   struct Line {
     std::string name, patch;
@@ -96,11 +97,17 @@ class ObjReader {
       material_ = w.size() > 1 ? std::string(w[1]) : "";
     } else if (w[0] == "f") {
       takeFace(w);
+    } else if (w[0] == "vn") {
+      ++content_.normals;
+    } else if (w[0] == "mtllib") {
+      ++content_.looks;
     } else if (w[0] == "l" && edge_) {
       Line line{edge_->first, edge_->second, {}, line_};
       for (std::size_t k = 1; k < w.size(); ++k)
         line.v.push_back(index(w[k].substr(0, w[k].find('/')), vertices_.size(), "vertex"));
       lines_.push_back(std::move(line));
+    } else if (w[0] == "l" || w[0] == "p" || w[0] == "curv" || w[0] == "curv2" || w[0] == "surf") {
+      ++content_.other_lines;
     }
   }
 
@@ -114,15 +121,31 @@ class ObjReader {
       const std::string_view second = rest.substr(0, rest.find('/'));
       vt.push_back(second.empty() ? -1 : index(second, uv_.size(), "vt"));
     }
+    content_.cut_faces += v.size() > 3;
     for (std::size_t k = 2; k < v.size(); ++k) {
       if (faces_.size() == kMost) fail("has more than 500,000 triangles");
-      faces_.push_back({{v[0], v[k - 1], v[k]}, {vt[0], vt[k - 1], vt[k]}, !group_.empty() ? group_ : material_});
+      faces_.push_back({{v[0], v[k - 1], v[k]}, {vt[0], vt[k - 1], vt[k]}, group_, material_, ""});
     }
   }
 
-  ClothMesh finish() const {
+  /// Names the patches of faces.
+  void sort() {
+    const bool one_group =
+        std::all_of(faces_.begin(), faces_.end(), [&](const Face& f) { return f.group == faces_[0].group; });
+    const bool one_material =
+        std::all_of(faces_.begin(), faces_.end(), [&](const Face& f) { return f.material == faces_[0].material; });
+    const auto has_uv = [](const Face& f) { return f.vt[0] >= 0 && f.vt[1] >= 0 && f.vt[2] >= 0; };
+    for (Face& f : faces_) {
+      f.patch = f.group.empty() || (one_group && !one_material) ? f.material : f.group;
+      content_.bare_faces += !has_uv(f);
+    }
+    if (content_.bare_faces == static_cast<int>(faces_.size())) content_.bare_faces = 0;
+  }
+
+  ClothMesh finish() {
     ClothMesh mesh;
     if (faces_.empty()) throw InputError({file_.string(), 0, ""}, "has no faces");
+    sort();
     std::map<std::string, int> patches;
     for (const Face& f : faces_)
       if (patches.emplace(f.patch, static_cast<int>(patches.size())).second)
@@ -164,15 +187,11 @@ class ObjReader {
       for (int v : l.v) line.vertices.push_back(vertex[static_cast<std::size_t>(v)]);
       mesh.lines.push_back(std::move(line));
     }
-    try {
-      checkMesh(mesh);
-    } catch (const InputError& e) {
-      throw InputError({file_.string(), 0, e.where().key}, e.reason());
-    }
     return mesh;
   }
 
   std::filesystem::path file_;
+  ObjContent content_;
   int line_ = 0;
   std::vector<Vec3> vertices_;
   std::vector<Vec2> uv_;
@@ -190,7 +209,17 @@ std::string oneWord(std::string name) {
 
 }  // namespace
 
-ClothMesh readObj(const std::filesystem::path& file) { return ObjReader(file).read(); }
+ObjContent readObjContent(const std::filesystem::path& file) { return ObjReader(file).read(); }
+
+ClothMesh readObj(const std::filesystem::path& file) {
+  ClothMesh mesh = readObjContent(file).mesh;
+  try {
+    checkMesh(mesh);
+  } catch (const InputError& e) {
+    throw InputError({file.string(), 0, e.where().key}, e.reason());
+  }
+  return mesh;
+}
 
 std::string objText(const ClothMesh& m, const std::string& name) {
   std::string out =

@@ -12,6 +12,7 @@
 #include "cases/fabric/raw_loop.hpp"
 #include "cases/kinds/any_case.hpp"
 #include "cases/pattern/import.hpp"
+#include "cases/pattern/mesh_import.hpp"
 #include "cases/pattern/pattern_file.hpp"
 #include "cases/pattern/svg.hpp"
 #include "core/error.hpp"
@@ -20,6 +21,7 @@
 #include "tryon/pattern/garment_file.hpp"
 #include "tryon/pattern/pattern.hpp"
 #include "unit/cases/example.hpp"
+#include "unit/cases/pattern/small_meshes.hpp"
 #include "unit/cases/pattern/small_patterns.hpp"
 
 namespace gambeson {
@@ -233,6 +235,22 @@ TEST(Fuzz, Patterns) {
   fuzz("a_specification.json", kGarmentCode, 91, 500, read);
   fuzz("a.json", patternText(importPattern(folder.write("a.json", kGarmentCode), {}).pattern), 92, 500, read);
   fuzz("a.dxf", dxfText("METRIC"), 93, 500, read);
+}
+
+TEST(Fuzz, MeshesOfGarments) {
+  // What is let in is drawn, and is read back from what is written.
+  const auto read = [](const std::filesystem::path& file) {
+    const ImportedMesh in = importMesh(file, {}, "fuzz");
+    patternSvg(in.flat);
+    const std::filesystem::path written = file.parent_path() / "written.json";
+    std::ofstream(written) << clothMeshText(in.file);
+    EXPECT_EQ(clothMeshText(loadClothMesh(written)), clothMeshText(in.file));
+  };
+  const Folder folder;
+  const std::string obj = tubeObj(0.15, 0.4, 1);
+  fuzz("a.obj", obj, 94, 500, read);
+  fuzz("a.ply", squarePly(true), 95, 500, read);
+  fuzz("b.json", clothMeshText(importMesh(folder.write("a.obj", obj), {}, "b").file), 96, 500, read);
 }
 
 }  // namespace

@@ -1,14 +1,11 @@
 /// Detail of kind.hpp: a garment of triangles from a mesh.
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "cases/input/table.hpp"
 #include "cases/wear/case/garments/kind.hpp"
-#include "core/cloth/draft/obj_mesh.hpp"
 #include "core/error.hpp"
-#include "human/files/mesh.hpp"
+#include "tryon/pattern/cloth_mesh_file.hpp"
 
 namespace gambeson {
 namespace schema {
@@ -17,12 +14,11 @@ namespace {
 Object meshFileTable() {
   using M = MeshGarment;
   return Table<M>("Mesh file")
-      .path(
-          "path", &M::path,
-          "an OBJ or PLY file, relative to the case's folder; vertices at one place are one. OBJ: groups are patches, "
-          "lines of a group \"edge NAME PATCH\" are edges that supports may name. PLY: one patch, \"cloth\", without "
-          "uv "
-          "and named edges")
+      .path("path", &M::path,
+            "an OBJ or PLY file, or what gambeson import writes of one (JSON), relative to the case's folder; vertices "
+            "at "
+            "one place are one. OBJ: groups are patches (materials, where there is one group), lines of a group \"edge "
+            "NAME PATCH\" are edges that supports may name. PLY: one patch, \"cloth\", without uv and named edges")
       .required()
       .choice("rest", &M::rest,
               std::vector<std::pair<std::string, MeshRest>>{
@@ -41,34 +37,6 @@ Object meshFileTable() {
 }  // namespace
 }  // namespace schema
 
-namespace {
-
-/// A PLY file is one patch, "cloth", without uv and named edges; its vertices at one place are one.
-ClothMesh readPly(const std::filesystem::path& file) {
-  const TriangleMesh triangles = loadMesh(file);
-  ClothMesh mesh;
-  mesh.vertices = triangles.vertices;
-  mesh.patch_names = {"cloth"};
-  mesh.triangles = triangles.triangles;
-  mesh.patch.assign(mesh.triangles.size(), 0);
-  try {
-    checkMesh(mesh);
-  } catch (const InputError& e) {
-    throw InputError({file.string(), 0, e.where().key}, e.reason());
-  }
-  return mesh;
-}
-
-ClothMesh read(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (ending == ".ply") return readPly(file);
-  if (ending == ".obj") return readObj(file);
-  throw InputError({file.string(), 0, "path"}, "is no mesh of cloth; allowed: files that end in .obj or .ply");
-}
-
-}  // namespace
-
 extern const GarmentKind mesh_file_garment;
 const GarmentKind mesh_file_garment{
     .word = "mesh_file",
@@ -79,7 +47,7 @@ const GarmentKind mesh_file_garment{
         },
     .make =
         [](const GarmentMaking& m) {
-          const ClothMesh mesh_of_file = read(std::get<MeshGarment>(m.worn.shape).path);
+          const ClothMesh mesh_of_file = readClothMesh(std::get<MeshGarment>(m.worn.shape).path);
           Garment mesh;  // of no patches: its cloth reads the file
           mesh.name = "mesh";
           mesh.patch_names = mesh_of_file.patch_names;
@@ -89,7 +57,7 @@ const GarmentKind mesh_file_garment{
     .look =
         [](const GarmentCase& g) {
           const auto& file = std::get<MeshGarment>(g.shape);
-          const ClothMesh mesh = read(file.path);
+          const ClothMesh mesh = readClothMesh(file.path);
           if (file.rest == MeshRest::flat && mesh.uv.empty())
             throw InputError(
                 {file.path.string(), 0, "rest"},
@@ -105,7 +73,7 @@ const GarmentKind mesh_file_garment{
         [](const GarmentCase& worn, const Fabric& fabric) {
           const auto& file = std::get<MeshGarment>(worn.shape);
           MeshDraft g;
-          g.mesh = read(file.path);
+          g.mesh = readClothMesh(file.path);
           g.rest = file.rest;
           g.fabrics = {fabric};
           for (Vec3& x : g.mesh.vertices) x = file.unit_m * x + worn.position_m;

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cases/cad/cad_file.hpp"
+#include "cases/cad/tidy.hpp"
 #include "cases/command/cli.hpp"
 #include "cases/wear/results/results.hpp"
 #include "cases/wear/results/shown.hpp"
@@ -105,6 +107,30 @@ TEST_F(Export, CadGetsTheControlPointsOfTheFrame) {
   EXPECT_EQ(patch.weights.size() * 3, expected.size());
 }
 
+/// Read back by OpenCASCADE: every control point, names, areas; and the same bytes each time.
+TEST_F(Export, CadFilesComeBack) {
+  const RecordingReader recording(results_);
+  const Frame frame = recording.frame(recording.frameCount() - 1);
+  const std::vector<float>& x = frame.control_fields.at(0).data;
+  for (const std::string ending : {"step", "igs"}) {
+    const std::string file = (folder_->path() / ("back." + ending)).string(),
+                      again = (folder_->path() / ("again." + ending)).string();
+    for (const std::string& f : {file, again})
+      ASSERT_EQ(command({"export", results_.c_str(), "-o", f.c_str(), "--time", "end"}), 0);
+    EXPECT_EQ(content(file), content(again)) << ending;
+    const CadShape shape = readCad(file);
+    ASSERT_EQ(shape.faces.size(), 1u);
+    EXPECT_EQ(shape.faces[0].name, recording.layout().patches[0].name) << ending;
+    const NurbsPatch& patch = shape.faces[0].patch;
+    ASSERT_EQ(3 * patch.points.size(), x.size());
+    double most = 0;
+    for (std::size_t k = 0; k < patch.points.size(); ++k)
+      most = std::max(most, norm(patch.points[k] - Vec3{x[3 * k], x[3 * k + 1], x[3 * k + 2]}));
+    EXPECT_LT(most, 1e-12) << ending;
+    EXPECT_NEAR(shape.faces[0].area_m2, areaOf(patch, {}), 1e-6 * shape.faces[0].area_m2) << ending;
+  }
+}
+
 /// Three times: the links where their joints put them, and every vertex of the cloth.
 TEST_F(Export, AnimationsHaveTheJointsAndTheClothOfTheRecording) {
   const std::string file = (folder_->path() / "sleeve.glb").string();
@@ -154,7 +180,8 @@ TEST_F(Export, WhatCannotBeWrittenIsSaid) {
   EXPECT_EQ(command({"export", results_.c_str(), "--iges", "x.igs", "--time", "noon"}, &error), 2);
   EXPECT_NE(error.find("time"), std::string::npos) << error;
   EXPECT_EQ(command({"export", results_.c_str(), "-o", "walk.mp4"}, &error), 2);
-  EXPECT_NE(error.find("allowed: a name that ends in .glb, .obj, .igs, .iges, .step or .stp"), std::string::npos) << error;
+  EXPECT_NE(error.find("allowed: a name that ends in .glb, .obj, .igs, .iges, .step or .stp"), std::string::npos)
+      << error;
   EXPECT_EQ(command({"export", results_.c_str(), "-o", "a.igs", "--iges", "b.igs"}, &error), 2);
   EXPECT_NE(error.find("second file of its format"), std::string::npos) << error;
   EXPECT_EQ(command({"export", results_.c_str(), "--iges", "/nowhere/at/all/x.igs"}, &error), 2);
