@@ -237,7 +237,7 @@ Object fabricTable() {
           .number("stiffness_warp", &F::stiffness_warp_N_per_m, "N/m", aboveTo(0, 1e10),
                   "in place of young_warp, the same along the warp")
           .defaultsTo("stiffness")
-          .number("shear_stiffness", &F::shear_stiffness_N_per_m, "N/m", aboveTo(0, 1e10),
+          .number("shear_stiffness", &F::shear_stiffness_N_per_m, "N/(m rad)", aboveTo(0, 1e10),
                   "in place of shear, shear modulus times thickness: G of KES-FB1, per radian")
           .defaultsTo("stiffness / (2 (1 + poisson)); required where stiffness is not given")
           .object("shear_loop", &F::shear_loop, shearLoopTable(),

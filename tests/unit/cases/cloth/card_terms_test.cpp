@@ -104,9 +104,11 @@ FabricCase fabricOfText(const std::string& text) {
 // What laboratories give per width needs no thickness: forces per width are those of the same sheet with one.
 TEST(CardTerms, AFabricInNewtonsPerMetreNeedsNoThickness) {
   const std::string bending = R"("bending": {"law": "linear", "rigidity": "1e-5 N m"})";
-  const std::string membrane = R"("stiffness_weft": "8000 N/m", "stiffness_warp": "500 N/5cm", "shear_stiffness": "1 gf/(cm deg)",)";
+  const std::string membrane =
+      R"json("stiffness_weft": "8000 N/m", "stiffness_warp": "500 N/5cm", "shear_stiffness": "1 gf/(cm deg)",)json";
   const FabricCase thin = fabricOfText("{\"surface_density\": \"320 gsm\", " + membrane + bending + "}"),
-                   thick = fabricOfText("{\"thickness\": \"2 mm\", \"surface_density\": \"320 gsm\", " + membrane + bending + "}");
+                   thick = fabricOfText("{\"thickness\": \"2 mm\", \"surface_density\": \"320 gsm\", " + membrane +
+                                        bending + "}");
   EXPECT_NEAR(thin.thickness_m, 0.32 / 400, 1e-15);
   EXPECT_EQ(thick.thickness_m, 2e-3);
   for (const FabricCase* f : {&thin, &thick}) {
