@@ -284,7 +284,7 @@ Object makeCardTable() {
               *key == 'W' ? "weight, by the name that KES has for it" : "mass per area",
               *key == 'W' ? "weight" : "400 kg/m^3 times the thickness, said as an assumption");
   byDirection(
-      table, "elongation", &C::elongation, "", "12 %", between(1e-4, 10),
+      table, "elongation", &C::elongation, "", "12 %", between(1e-4, 3.5),
       "engineering strain that the fabric may reach, where it tears or stays stretched: a run beyond it fails a "
       "check that names the card",
       "none");
