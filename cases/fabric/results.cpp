@@ -165,7 +165,7 @@ void addCircles(const FabricCard& card, XyPlot& plot) {
 Image drapePicture(const FabricCard& card, const MeasuredTest& test) {
   constexpr Color kCloth{0.42f, 0.50f, 0.62f}, kDisc{0.74f, 0.73f, 0.72f};
   constexpr int kPoints = 120;
-  RenderMesh cloth{test.draped->points, test.draped->triangles, {}, kCloth, true, {}};
+  RenderMesh cloth{test.draped->points, test.draped->triangles, {}, kCloth, false, {}};
   RenderMesh disc{{{0, 0, 0}}, {}, {}, kDisc, true, {}};
   for (int k = 0; k < kPoints; ++k) {
     const Vec2 ray = laboratory::rayAt(k, kPoints);
