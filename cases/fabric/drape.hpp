@@ -33,7 +33,7 @@ struct Draped {
 /// steps of an implicit Euler method against a drag (K + M/s, s grows while little moves) to a stable equilibrium:
 /// inertia plays no part. So that it knows where to fold, its weight is uneven by 2 % in a fixed pattern until it
 /// hangs, and even from then on. Cloth does not touch itself; `crossings` tells where that would matter. Quadratic
-/// cells take assumed strains; of other degrees they lock, and the shadow is too large. Throws RunError where it finds
+/// cells take assumed strains; others lock, and the shadow is too large. Throws RunError where it finds
 /// no rest.
 Draped drape(const Fabric& fabric, const Specimen& specimen, double specimen_m = kDrapeSpecimen_m);
 

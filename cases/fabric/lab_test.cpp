@@ -214,6 +214,7 @@ void measureDrape(const FabricCard& card, const Fabric& fabric, const laboratory
   test.readings = {std::move(coefficient), std::move(nodes)};
   test.notes.push_back(fmt::format("specimen of {:.4g} cm between discs of {:.4g} cm, at rest after {} steps",
                                    100 * diameter, 100 * laboratory::kDrapeSupport_m, d.steps));
+  test.notes.push_back("the coefficient of cloth that folds still falls with finer cells: compare several --cells");
   if (d.crossings > 0)
     test.notes.push_back(fmt::format(
         "folds pass through each other at {} places: cloth that touches itself keeps a larger shadow", d.crossings));
