@@ -37,6 +37,11 @@ struct Axis {
   double coordinate(double v) const { return logarithmic ? (v > 0 ? std::log10(v) : std::nan("")) : v; }
   double pixel(double c) const { return from + (c - low) / (high - low) * (to - from); }
   void add(double c) { low = std::min(low, c), high = std::max(high, c); }
+  /// Grows on both sides to this length.
+  void stretchTo(double length) {
+    const double room = 0.5 * (length - (high - low));
+    low -= room, high += room;
+  }
   void widen() {
     const double room = high > low ? 0.04 * (high - low) : low == 0 || logarithmic ? 0.5 : 0.5 * std::abs(low);
     low -= room, high += room;
@@ -104,8 +109,12 @@ Drawing draw(const XyPlot& plot) {
   double top = 0;
   const std::string key = legend(plot.series, top);
   top += 22;  // the name of the ordinate
-  const double bottom = top + kPlotHeight - kBottom - 22;
-  ax.from = kLeft, ax.to = kWidth - kRight;
+  const double width = kWidth - kRight - kLeft, bottom = top + (plot.equal ? width : kPlotHeight - kBottom - 22);
+  if (plot.equal) {
+    const double length = std::max(ax.high - ax.low, ay.high - ay.low);
+    ax.stretchTo(length), ay.stretchTo(length);
+  }
+  ax.from = kLeft, ax.to = kLeft + width;
   ay.from = bottom, ay.to = top;
 
   std::string svg;

@@ -16,6 +16,7 @@ struct XyPlot {
   std::string title, caption, x_name, y_name;
   std::vector<XySeries> series;
   bool logarithmic = false;  ///< both axes; points <= 0 are left out
+  bool equal = false;        ///< a unit is as long on both axes: of shapes
 };
 
 /// A figure with the plot, its legend and its caption. Throws InputError where a series has not one y per x.

@@ -70,6 +70,14 @@ struct CardFast {
   std::optional<double> bias, shear_N_per_m, surface_thickness_m;
 };
 
+/// Cusick's drape test (BS 5058, ISO 9073-9): what no fabric is made of, but what the laboratory is compared with.
+struct CardDrape {
+  double coefficient = 0;    ///< a part of 1
+  double specimen_m = 0.30;  ///< diameter; the support's is 18 cm
+  std::optional<double> nodes;
+  std::string source;  ///< where it is from, if not with the card's other numbers
+};
+
 struct FabricCard {
   std::string name, source, description;
   std::string spread, range;  ///< in words: how far specimens differ; in which the numbers are fitted
@@ -82,6 +90,7 @@ struct FabricCard {
   std::optional<CardTensile> tensile;
   std::optional<CardShear> shear;
   CardBending bending;
+  std::optional<CardDrape> drape;
   std::optional<double> friction;  ///< MIU of KES-FB4
 };
 

@@ -244,6 +244,22 @@ Object bendingTable() {
   return table.build();
 }
 
+Object drapeTable() {
+  using D = CardDrape;
+  Table<D> table("Drape of a card");
+  labNumber(table, "coefficient", &D::coefficient, "", "", between(0, 1),
+            "drape coefficient, the share of the free ring that its shadow covers: a part, or \"55 %\"", "required");
+  labNumber(table, "specimen", &D::specimen_m, "m", "30 cm", between(0.2, 0.5),
+            "diameter of the specimen; the discs that hold it have 18 cm", "30 cm");
+  labNumber(table, "nodes", &D::nodes, "", "", between(0, 100), "how many folds it has, the mean of specimens",
+            "not said");
+  table.text("source", &D::source, "where this is from, if not with the card's other numbers").defaultsTo("the card's");
+  table.check([](const Entry& p, const D&) {
+    if (!p.node.find("coefficient")) p.failAt("coefficient", "is required: the drape coefficient, \"55 %\" say");
+  });
+  return table.build();
+}
+
 Object makeCardTable() {
   using C = FabricCard;
   Table<C> table("Fabric card",
@@ -267,10 +283,11 @@ Object makeCardTable() {
     labNumber(table, key, &C::weight_kg_per_m2, "kg/m^2", *key == 'W' ? "32 mg/cm^2" : "320 g/m^2", between(1e-4, 10),
               *key == 'W' ? "weight, by the name that KES has for it" : "mass per area",
               *key == 'W' ? "weight" : "400 kg/m^3 times the thickness, said as an assumption");
-  byDirection(table, "elongation", &C::elongation, "", "12 %", between(1e-4, 10),
-              "engineering strain that the fabric may reach, where it tears or stays stretched: no run of worn cloth "
-              "beyond it is green (structures ask no such thing)",
-              "none");
+  byDirection(
+      table, "elongation", &C::elongation, "", "12 %", between(1e-4, 3.5),
+      "engineering strain that the fabric may reach, where it tears or stays stretched: a run beyond it fails a "
+      "check that names the card",
+      "none");
   byDirection(table, "strength", &C::strength_N_per_m, "N/m", "16000 N/m", between(1e-2, 1e8),
               "force per width that it may reach: the limit is the strain that the fabric's law has there", "none");
   table.object("tensile", &C::tensile, tensileTable(), "tension along weft and warp")
@@ -280,7 +297,9 @@ Object makeCardTable() {
       .object("FAST", &C::fast, fastTable(), "a sheet of FAST, in place of tensile, shear and bending")
       .defaultsTo("none")
       .object("bending", &C::bending, bendingTable(), "bending along weft and warp")
-      .defaultsTo("required, or C or B of FAST");
+      .defaultsTo("required, or C or B of FAST")
+      .object("drape", &C::drape, drapeTable(), "Cusick's drape test: the laboratory is compared with it")
+      .defaultsTo("none");
   labNumber(table, "MIU", &C::friction, "", "", aboveTo(0, 2),
             "coefficient of friction, KES-FB4; a case says its friction itself (contact.friction)", "not said");
   table.check([](const Entry& p, C& c) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -207,7 +208,9 @@ Object fabricTable() {
               [](const F& f) { return f.card.empty() ? std::nullopt : std::optional(nodeOf(f.card.string())); })
           .text("name", &F::name, "what the reports call it")
           .number("thickness", &F::thickness_m, "m", aboveTo(0, 0.05), "thickness")
-          .defaultsTo("required, or card")
+          .defaultsTo(
+              "required, or card; beside surface_density and stiffness, surface_density over 400 kg/m^3: no force "
+              "per width depends on it")
           .number("density", &F::density_kg_per_m3, "kg/m^3", aboveTo(0, 3e4), "mass per volume")
           .in("density")
           .defaultsTo("required, or surface_density, or card")
@@ -224,6 +227,19 @@ Object fabricTable() {
           .defaultsTo("young")
           .number("shear", &F::shear_Pa, "Pa", aboveTo(0, 1e12), "in-plane shear modulus")
           .defaultsTo("young / (2 (1 + poisson)); required where young is not given")
+          .number("stiffness", &F::stiffness_N_per_m, "N/m", aboveTo(0, 1e10),
+                  "in place of young, Young's modulus times thickness, as sheets of laboratories have it: force per "
+                  "width over strain of a strip, the same along weft and warp")
+          .defaultsTo("none")
+          .number("stiffness_weft", &F::stiffness_weft_N_per_m, "N/m", aboveTo(0, 1e10),
+                  "in place of young_weft, the same along the weft")
+          .defaultsTo("stiffness")
+          .number("stiffness_warp", &F::stiffness_warp_N_per_m, "N/m", aboveTo(0, 1e10),
+                  "in place of young_warp, the same along the warp")
+          .defaultsTo("stiffness")
+          .number("shear_stiffness", &F::shear_stiffness_N_per_m, "N/(m rad)", aboveTo(0, 1e10),
+                  "in place of shear, shear modulus times thickness: G of KES-FB1, per radian")
+          .defaultsTo("stiffness / (2 (1 + poisson)); required where stiffness is not given")
           .object("shear_loop", &F::shear_loop, shearLoopTable(),
                   "friction between threads that turn against each other")
           .defaultsTo("none: shear is elastic")
@@ -257,6 +273,57 @@ Object fabricTable() {
 }
 
 namespace {
+
+/// What is given in N/m becomes moduli of the thickness; a sheet that has none gets one from its weight.
+FabricInput inModuli(const Entry& entry, FabricInput in) {
+  struct Pair {
+    const char *per_width, *modulus;
+    std::optional<double> FabricInput::*from;
+    std::optional<double> FabricInput::*to;
+  };
+  const Pair pairs[] = {
+      {"stiffness", "young", &FabricInput::stiffness_N_per_m, &FabricInput::young_Pa},
+      {"stiffness_weft", "young_weft", &FabricInput::stiffness_weft_N_per_m, &FabricInput::young_weft_Pa},
+      {"stiffness_warp", "young_warp", &FabricInput::stiffness_warp_N_per_m, &FabricInput::young_warp_Pa},
+      {"shear_stiffness", "shear", &FabricInput::shear_stiffness_N_per_m, &FabricInput::shear_Pa}};
+  const char* modulus = nullptr;
+  bool any = false;
+  for (const Pair& p : pairs) {
+    if (in.*p.to) modulus = p.modulus;
+    any = any || in.*p.from;
+  }
+  if (!any) return in;
+  for (const Pair& p : pairs)
+    if (in.*p.from && modulus)
+      entry.failAt(p.per_width, fmt::format("excludes \"{}\": give moduli in Pa, or stiffnesses in N/m", modulus));
+  if (in.stiffness_N_per_m)
+    for (const Pair* p : {&pairs[1], &pairs[2]})
+      if (in.*p->from)
+        entry.failAt(p->per_width,
+                     "excludes \"stiffness\"; give stiffness for isotropic cloth, or stiffness_weft, "
+                     "stiffness_warp and shear_stiffness");
+  const bool of_card = !in.card.empty();
+  if (!in.stiffness_N_per_m && !of_card)
+    for (const Pair& p : std::span(pairs).subspan(1))
+      if (!(in.*p.from)) entry.failAt(p.per_width, "is required where \"stiffness\" is not given");
+  if (!entry.node.find("thickness") && !of_card) {
+    if (!in.surface_density_kg_per_m2)
+      entry.failAt("thickness", "is required, or surface_density, from which it is taken where no modulus needs it");
+    in.thickness_m = *in.surface_density_kg_per_m2 / kCardDensity_kg_per_m3;
+  }
+  return in;
+}
+
+/// After the thickness is known.
+void toModuli(FabricInput& in, double thickness_m) {
+  const auto to = [&](const std::optional<double>& from, std::optional<double>& modulus) {
+    if (from) modulus = *from / thickness_m;
+  };
+  to(in.stiffness_N_per_m, in.young_Pa);
+  to(in.stiffness_weft_N_per_m, in.young_weft_Pa);
+  to(in.stiffness_warp_N_per_m, in.young_warp_Pa);
+  to(in.shear_stiffness_N_per_m, in.shear_Pa);
+}
 
 void resolveDensity(const Entry& entry, const FabricInput& in, FabricCase& f) {
   if (in.surface_density_kg_per_m2)
@@ -295,7 +362,7 @@ void resolveMembrane(const Entry& entry, const FabricInput& in, FabricCase& f) {
 /// After the membrane: what was given as shear may have a part of friction in it.
 void resolveShear(const Entry& entry, const FabricInput& in, FabricCase& f) {
   if (!in.shear_loop) {
-    if (entry.node.find("shear") || entry.node.find("young")) f.shear_friction = {};
+    if (in.shear_Pa || in.young_Pa) f.shear_friction = {};
     return;
   }
   const ShearLoopInput& loop = *in.shear_loop;
@@ -371,14 +438,16 @@ FabricCase cardOf(const Entry& entry, const FabricInput& in) {
 
 }  // namespace
 
-FabricCase resolveFabric(const Entry& entry, const FabricInput& in) {
+FabricCase resolveFabric(const Entry& entry, const FabricInput& given) {
+  FabricInput in = inModuli(entry, given);
   FabricCase f = cardOf(entry, in);
   const bool of_card = !f.card.empty();
   if (!in.name.empty()) f.name = in.name;
-  if (entry.node.find("thickness"))
+  if (in.thickness_m > 0)
     f.thickness_m = in.thickness_m;
   else if (!of_card)
     entry.failAt("thickness", "is required: thickness");
+  toModuli(in, f.thickness_m);
   resolveDensity(entry, in, f);
   if (in.law) {
     resolveLimits(entry, in, f);

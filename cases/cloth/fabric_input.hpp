@@ -46,6 +46,8 @@ struct FabricInput {
   double thickness_m = 0;
   std::optional<double> density_kg_per_m3, surface_density_kg_per_m2;
   std::optional<double> young_Pa, young_weft_Pa, young_warp_Pa, shear_Pa;
+  /// In their place, times the thickness: of sheets that have none. Only read; moduli are written.
+  std::optional<double> stiffness_N_per_m, stiffness_weft_N_per_m, stiffness_warp_N_per_m, shear_stiffness_N_per_m;
   double poisson = 0;
   double jam_area = 0.7;
   std::optional<double> limit_strain, limit_strain_weft, limit_strain_warp;

@@ -127,7 +127,8 @@ Object lawTable() {
 }
 
 void refuseReplaced(const Entry& entry, const char* by) {
-  for (const char* key : {"young", "young_weft", "young_warp", "shear", "shear_loop", "poisson", "jam_area", "bending"})
+  for (const char* key : {"young", "young_weft", "young_warp", "shear", "stiffness", "stiffness_weft", "stiffness_warp",
+                          "shear_stiffness", "shear_loop", "poisson", "jam_area", "bending"})
     if (entry.node.find(key))
       entry.failAt(key, fmt::format("has no meaning where {}, which replaces it; remove it", by));
 }

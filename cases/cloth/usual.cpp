@@ -29,6 +29,10 @@ const std::vector<Usual>& rows() {
       {"Fabric", "young_weft", between(1e3, 1e11)},
       {"Fabric", "young_warp", between(1e3, 1e11)},
       {"Fabric", "shear", between(10, 1e11)},
+      {"Fabric", "stiffness", between(1, 1e8)},
+      {"Fabric", "stiffness_weft", between(1, 1e8)},
+      {"Fabric", "stiffness_warp", between(1, 1e8)},
+      {"Fabric", "shear_stiffness", between(0.1, 1e8)},
       {"Fabric card", "thickness", between(2e-5, 0.02)},
       {"Fabric card", "weight", between(0.005, 5)},
   };

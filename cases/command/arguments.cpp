@@ -305,11 +305,11 @@ void addFabric(CLI::App& app, FabricArguments& a) {
   command
       .add_option("--test", a.tests,
                   "bending (KES-FB2, to 2.5/cm either way), shear (KES-FB1, to 8 degrees), tension (KES-FB1), bias "
-                  "(FAST-3, EB5) or cantilever (ASTM D1388); may be given several times [those whose numbers the card "
-                  "has]")
+                  "(FAST-3, EB5), cantilever (ASTM D1388) or drape (Cusick, about a minute); may be given several times [those "
+                  "whose numbers the card has]")
       ->type_name("TEST")
       ->allow_extra_args(false)
-      ->check(CLI::IsMember({"bending", "shear", "tension", "bias", "cantilever"}).description(""));
+      ->check(CLI::IsMember({"bending", "shear", "tension", "bias", "cantilever", "drape"}).description(""));
   command
       .add_option("--direction", a.options.directions_deg,
                   "Direction that the specimen is cut in, degrees from the weft towards the warp; may be given several "
@@ -333,7 +333,7 @@ void addFabric(CLI::App& app, FabricArguments& a) {
       ->type_name("NAME")
       ->capture_default_str()
       ->check(CLI::IsMember(wordsOf(schema::bendingElements())).description(""));
-  command.add_option("--cells", a.options.specimen.cells, "Cells between the clamps")
+  command.add_option("--cells", a.options.specimen.cells, "Cells between the clamps; a draped ring has half of them across and six times as many around")
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(4, 200).description(""));

@@ -195,6 +195,31 @@ void measureDroop(const FabricCard& card, const Fabric& fabric, const laboratory
                            {}});
 }
 
+void measureDrape(const FabricCard& card, const Fabric& fabric, const laboratory::Specimen& specimen,
+                  MeasuredTest& test) {
+  const double diameter = card.drape ? card.drape->specimen_m : laboratory::kDrapeSpecimen_m;
+  test.draped = laboratory::drape(fabric, specimen, diameter);
+  const laboratory::Draped& d = *test.draped;
+  for (std::size_t i = 0; i <= d.outline.size(); ++i) {
+    const Vec2& x = d.outline[i % d.outline.size()];
+    test.loop.push_back({x.x, x.y, 0});
+  }
+  Reading coefficient{"drape coefficient", "%", 0.01, {}, d.coefficient, 0, {}, true};
+  Reading nodes{"nodes", "", 1, {}, static_cast<double>(d.nodes), 0, {}};
+  if (card.drape) {
+    coefficient.card = card.drape->coefficient;
+    if (card.drape->nodes) nodes.card = *card.drape->nodes;
+    if (!card.drape->source.empty()) test.notes.push_back("card's drape: " + card.drape->source);
+  }
+  test.readings = {std::move(coefficient), std::move(nodes)};
+  test.notes.push_back(fmt::format("specimen of {:.4g} cm between discs of {:.4g} cm, at rest after {} steps",
+                                   100 * diameter, 100 * laboratory::kDrapeSupport_m, d.steps));
+  test.notes.push_back("the coefficient of cloth that folds still falls with finer cells: compare several --cells");
+  if (d.crossings > 0)
+    test.notes.push_back(fmt::format(
+        "folds pass through each other at {} places: cloth that touches itself keeps a larger shadow", d.crossings));
+}
+
 }  // namespace
 
 const std::vector<LabTestKind>& labTests() {
@@ -238,7 +263,15 @@ const std::vector<LabTestKind>& labTests() {
        "droop [cm]",
        0.01,
        0.01,
-       {"reach_cm", "droop_cm", "reach_m", "droop_m", "lost_J_per_m2"}}};
+       {"reach_cm", "droop_cm", "reach_m", "droop_m", "lost_J_per_m2"}},
+      {LabTest::drape,
+       "drape",
+       "Cusick drape",
+       "x, along the weft [cm]",
+       "y, along the warp [cm]",
+       0.01,
+       0.01,
+       {"x_cm", "y_cm", "x_m", "y_m", "lost_J_per_m2"}}};
   return all;
 }
 
@@ -247,6 +280,7 @@ const LabTestKind& kindOf(LabTest test) {
 }
 
 std::string MeasuredTest::title() const {
+  if (test == LabTest::drape) return kindOf(test).title;
   const double turned = std::fmod(std::abs(direction_deg), 180);
   const std::string where = turned == 0    ? "along the weft"
                             : turned == 90 ? "along the warp"
@@ -254,7 +288,10 @@ std::string MeasuredTest::title() const {
   return fmt::format("{}, {}", kindOf(test).title, where);
 }
 
-std::string MeasuredTest::stem() const { return fmt::format("{}_{}", kindOf(test).word, direction_deg); }
+std::string MeasuredTest::stem() const {
+  if (test == LabTest::drape) return kindOf(test).word;
+  return fmt::format("{}_{}", kindOf(test).word, direction_deg);
+}
 
 std::vector<LabTest> testsOf(const FabricCard& card) {
   std::vector<LabTest> tests{LabTest::bending};
@@ -262,6 +299,7 @@ std::vector<LabTest> testsOf(const FabricCard& card) {
   if (card.tensile) tests.push_back(LabTest::tension);
   if (card.fast && card.fast->bias) tests.push_back(LabTest::bias);
   if (card.bending.length_m.any()) tests.push_back(LabTest::cantilever);
+  if (card.drape) tests.push_back(LabTest::drape);
   return tests;
 }
 
@@ -271,12 +309,13 @@ std::vector<double> directionsOf(LabTest test, const FabricCard& card) {
                          ? t.extension.apart() || t.curves.apart() || t.modulus_N_per_m.apart() || t.linearity.apart()
                          : card.bending.rigidity.apart() || card.bending.hysteresis.apart();
   if (test == LabTest::bias) return {45};
+  if (test == LabTest::drape) return {0};
   return apart ? std::vector<double>{0, 90} : std::vector<double>{0};
 }
 
 MeasuredTest measureTest(LabTest kind, double direction_deg, const FabricCard& card, const CardFabric& c,
                          laboratory::Specimen specimen) {
-  MeasuredTest test{kind, direction_deg, {}, {}};
+  MeasuredTest test{.test = kind, .direction_deg = direction_deg, .loop = {}, .readings = {}};
   specimen.direction_rad = direction_deg * kDegree;
   const Fabric& fabric = c.fabric;
   switch (kind) {
@@ -298,6 +337,9 @@ MeasuredTest measureTest(LabTest kind, double direction_deg, const FabricCard& c
       break;
     case LabTest::cantilever:
       measureDroop(card, fabric, specimen, test);
+      break;
+    case LabTest::drape:
+      measureDrape(card, fabric, specimen, test);
       break;
   }
   return test;

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "cases/cloth/card.hpp"
+#include "cases/fabric/drape.hpp"
 #include "cases/fabric/laboratory.hpp"
 
 namespace gambeson {
 
-enum class LabTest { bending, shear, tension, bias, cantilever };
+enum class LabTest { bending, shear, tension, bias, cantilever, drape };
 
 /// How a test is called and shown: what its loop has across and upwards, with SI of one of the units.
 struct LabTestKind {
@@ -31,6 +32,8 @@ struct Reading {
   double measured = 0;
   double at = 0;  ///< where it was read: curvature [1/m], angle [rad] or strain; of slopes where they begin
   std::optional<double> load;  ///< of a strain, the force per width at which it was read [N/m]
+  /// Of shares, whose difference from the card's is said in points of a hundred; else it is relative.
+  bool share = false;
 };
 
 struct MeasuredTest {
@@ -38,6 +41,8 @@ struct MeasuredTest {
   double direction_deg = 0;
   laboratory::Loop loop;  ///< of cantilevers the overhang: how far it reaches, and how deep it hangs [m]
   std::vector<Reading> readings;
+  std::optional<laboratory::Draped> draped = {};  ///< whose outline is the loop: x and y [m]
+  std::vector<std::string> notes = {};            ///< said below the readings
 
   std::string title() const;  ///< "KES-FB2 bending, along the weft"
   std::string stem() const;   ///< of its files: "bending_22.5"

@@ -38,12 +38,13 @@ struct Course {
 };
 
 /// KES-FB2, pure bending: 1 cm between the clamps. One clamp is still; about the other a moment turns, free of force,
-/// until the middle of the specimen (all but a cell at either clamp) has the curvature that is wanted. Throws RunError
-/// where no equilibrium is found.
+/// until the middle of the specimen (all but a cell at either clamp) has the curvature that is wanted. The specimen
+/// keeps its length, as the instrument sees to. Throws RunError where no equilibrium is found.
 Loop bend(const Fabric& fabric, const Specimen& specimen, const Course& curvature_per_m);
 
-/// KES-FB1, shear: 5 cm between the clamps, under a tension of 10 gf/cm; one clamp moves sideways by tan(angle) of the
-/// length. The force is without the tension's part, F - W tan(angle).
+/// KES-FB1, shear: 5 cm between the clamps, under a tension of 10 gf/cm; one clamp moves sideways by tan(angle) of
+/// these 5 cm. The force is without the tension's part, F - W dy/dx along the specimen as it is: W tan(angle) where the
+/// tension does not stretch it.
 Loop shear(const Fabric& fabric, const Specimen& specimen, const Course& angle_rad);
 
 /// Where a loop passes a place on a way: 0 is that to the first turn, 1 that to the second, and so on. Throws RunError

@@ -9,6 +9,7 @@
 #include "analysis/report/xy_chart.hpp"
 #include "analysis/ticks.hpp"
 #include "cases/cloth/kind_fields.hpp"
+#include "cases/fabric/shadow.hpp"
 #include "cases/fabric/strips.hpp"
 #include "core/io/csv.hpp"
 
@@ -35,6 +36,8 @@ std::string fixed(double x) {
 
 /// Of a reading with a card; what rounds to nothing has no sign.
 std::string difference(const Reading& r) {
+  if (r.share) return fmt::format("{:+.1f} points", 100 * (r.measured - *r.card));
+  if (*r.card == 0) return fmt::format("{:+.4g}", r.measured);
   const double percent = 100 * (r.measured / *r.card - 1);
   return std::abs(percent) < 0.005 ? "0.00 %" : fmt::format("{:+.2f} %", percent);
 }
@@ -43,10 +46,11 @@ std::string difference(const Reading& r) {
 
 std::string testTable(const MeasuredTest& test) {
   std::string text =
-      fmt::format("{}\n  {:<16}{:>12}{:>12}{:>12}  unit\n", test.title(), "", "card", "measured", "difference");
+      fmt::format("{}\n  {:<18}{:>12}{:>12}{:>14}  unit\n", test.title(), "", "card", "measured", "difference");
   for (const Reading& r : test.readings)
-    text += fmt::format("  {:<16}{:>12}{:>12}{:>12}  {}\n", r.name, r.card ? fixed(*r.card / r.per_unit) : "-",
+    text += fmt::format("  {:<18}{:>12}{:>12}{:>14}  {}\n", r.name, r.card ? fixed(*r.card / r.per_unit) : "-",
                         fixed(r.measured / r.per_unit), r.card ? difference(r) : "-", r.unit);
+  for (const std::string& note : test.notes) text += "  " + note + "\n";
   return text;
 }
 
@@ -140,12 +144,47 @@ void addCard(const MeasuredTest& test, XyPlot& plot) {
   }
 }
 
+/// The specimen before it sank, and the discs that hold it.
+void addCircles(const FabricCard& card, XyPlot& plot) {
+  constexpr int kPoints = 180;
+  const double specimen = card.drape ? card.drape->specimen_m : laboratory::kDrapeSpecimen_m;
+  for (const auto& [name, diameter] :
+       {std::pair("specimen, flat", specimen), std::pair("support", laboratory::kDrapeSupport_m)}) {
+    XySeries circle{name, {}, {}, false};
+    for (int k = 0; k <= kPoints; ++k) {
+      const Vec2 ray = laboratory::rayAt(k, kPoints);
+      circle.x.push_back(50 * diameter * ray.x);
+      circle.y.push_back(50 * diameter * ray.y);
+    }
+    plot.series.push_back(std::move(circle));
+  }
+}
+
 }  // namespace
+
+Image drapePicture(const FabricCard& card, const MeasuredTest& test) {
+  constexpr Color kCloth{0.42f, 0.50f, 0.62f}, kDisc{0.74f, 0.73f, 0.72f};
+  constexpr int kPoints = 120;
+  RenderMesh cloth{test.draped->points, test.draped->triangles, {}, kCloth, false, {}};
+  RenderMesh disc{{{0, 0, 0}}, {}, {}, kDisc, true, {}};
+  for (int k = 0; k < kPoints; ++k) {
+    const Vec2 ray = laboratory::rayAt(k, kPoints);
+    disc.vertices.push_back({0.5 * laboratory::kDrapeSupport_m * ray.x, 0.5 * laboratory::kDrapeSupport_m * ray.y, 0});
+    disc.triangles.push_back({0, k + 1, (k + 1) % kPoints + 1});
+  }
+  Scene scene;
+  scene.meshes = {std::move(cloth), std::move(disc)};
+  scene.title = card.name + ": " + test.title();
+  scene.subtitle =
+      fmt::format("Drape coefficient {:.1f} %, {} nodes", 100 * test.draped->coefficient, test.draped->nodes);
+  scene.view = View::above;
+  return render(scene, 1100, 850);
+}
 
 std::string loopPicture(const FabricCard& card, const MeasuredTest& test, const std::vector<LoopSample>& raw,
                         const std::string& specimen) {
   const LabTestKind& kind = kindOf(test.test);
-  XyPlot plot{card.name + ": " + test.title(), "", kind.x_label, kind.y_label, {}, false};
+  XyPlot plot{card.name + ": " + test.title(), "", kind.x_label, kind.y_label, {}, false, test.draped.has_value()};
   XySeries loop{"simulated", {}, {}, false};
   for (const laboratory::LoopPoint& p : test.loop) {
     loop.x.push_back(p.at / kind.x_unit);
@@ -160,12 +199,16 @@ std::string loopPicture(const FabricCard& card, const MeasuredTest& test, const 
     }
     plot.series.push_back(std::move(points));
   }
-  addCard(test, plot);
+  if (test.draped)
+    addCircles(card, plot);
+  else
+    addCard(test, plot);
   std::vector<std::string> notes;
   for (const Reading& r : test.readings)
     notes.push_back(
         fmt::format("{}: measured {} {}{}", r.name, fixed(r.measured / r.per_unit), r.unit,
                     r.card ? fmt::format(", card {} ({})", fixed(*r.card / r.per_unit), difference(r)) : ""));
+  notes.insert(notes.end(), test.notes.begin(), test.notes.end());
   notes.push_back(specimen);
   return xyPicture(plot, notes);
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/render/render.hpp"
 #include "cases/cloth/card.hpp"
 #include "cases/fabric/lab_test.hpp"
 #include "core/material/fit_stops.hpp"
@@ -21,6 +22,9 @@ std::string fitTable(const LoopFit& fit);
 std::string loopCsv(const MeasuredTest& test);
 std::string loopPicture(const FabricCard& card, const MeasuredTest& test, const std::vector<LoopSample>& raw,
                         const std::string& specimen);
+
+/// The draped specimen on its support, seen from above its side. Throws RunError where nothing can be drawn.
+Image drapePicture(const FabricCard& card, const MeasuredTest& test);
 
 /// The specimen in words.
 std::string specimenText(const laboratory::Specimen& specimen);

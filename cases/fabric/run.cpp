@@ -105,16 +105,31 @@ Json testJson(const MeasuredTest& test) {
     Json one{{"name", r.name}, {"unit", r.unit}, {"measured", r.measured / r.per_unit}, {"measured_SI", r.measured}};
     if (r.card) {
       one["card"] = *r.card / r.per_unit;
-      one["difference"] = r.measured / *r.card - 1;
+      if (r.share)
+        one["difference_points"] = 100 * (r.measured - *r.card);
+      else
+        one["difference"] = r.measured / *r.card - 1;
     }
     readings.push_back(one);
   }
-  return {{"test", test.title()},
-          {"direction_deg", test.direction_deg},
-          {"loop", test.stem() + ".csv"},
-          {"picture", test.stem() + ".svg"},
-          {"lost_J_per_m2", test.loop.back().lost_J_per_m2},
-          {"readings", readings}};
+  Json all{{"test", test.title()},
+           {"direction_deg", test.direction_deg},
+           {"loop", test.stem() + ".csv"},
+           {"picture", test.stem() + ".svg"},
+           {"lost_J_per_m2", test.loop.back().lost_J_per_m2},
+           {"readings", readings}};
+  if (test.draped) all["self_crossings"] = test.draped->crossings;
+  if (!test.notes.empty()) all["notes"] = test.notes;
+  return all;
+}
+
+/// A picture that fails takes no numbers with it.
+void drawDrape(const FabricCard& card, const MeasuredTest& test, const std::filesystem::path& png, std::ostream& out) {
+  try {
+    writePng(drapePicture(card, test), png);
+  } catch (const RunError& e) {
+    out << fmt::format("  The picture {} could not be drawn: {}\n", png.filename().string(), e.what());
+  }
 }
 
 /// All tests of a fabric; each is said as soon as it is done.
@@ -130,6 +145,7 @@ void openLaboratory(const FabricOptions& o, const FabricCard& card, const CardFa
       out.flush();
       writeOwnFile(o.out / (test.stem() + ".csv"), loopCsv(test));
       writeOwnFile(o.out / (test.stem() + ".svg"), loopPicture(card, test, raw, specimen));
+      if (test.draped) drawDrape(card, test, o.out / (test.stem() + ".png"), out);
       tests.push_back(testJson(test));
     }
   const Json all{{"card", card.name},    {"source", card.source}, {"program", "gambeson " GAMBESON_VERSION},
@@ -148,8 +164,11 @@ void checkOutputs(const FabricOptions& o, const FabricCard& card) {
   requireFolder(o.out);
   for (const LabTest test : testsOf(o, card))
     for (const double direction : directionsOf(o, test, card))
-      for (const char* ending : {".csv", ".svg"})
-        requireFreeOf(o.out / (MeasuredTest{test, direction, {}, {}}.stem() + ending), inputs, "--out");
+      for (const char* ending : {".csv", ".svg", ".png"})
+        requireFreeOf(
+            o.out /
+                (MeasuredTest{.test = test, .direction_deg = direction, .loop = {}, .readings = {}}.stem() + ending),
+            inputs, "--out");
   requireFreeOf(o.out / "laboratory.json", inputs, "--out");
   makeFolder(o.out);
 }

@@ -108,18 +108,20 @@ Object materialTable() {
           [table = fabric.object](const Entry& p, M& m) {
             FabricInput in;
             readObject(*table, p, &in);
-            for (const char* key : {"limit_strain", "limit_strain_weft", "limit_strain_warp"})
-              if (p.node.find(key))
-                p.failAt(key, "is what a verdict on a garment asks for; a structure has none: remove it");
             const FabricCase f = resolveFabric(p, in);
             m.law = static_cast<const Fabric&>(f);
             m.card = f.card;
             m.energy_source = f.energy_source;
+            // The range of a table is no limit that anyone stated: the check of the law's range is about that.
+            if (f.energy_source && f.card.empty() && !in.limit_strain && !in.limit_strain_weft && !in.limit_strain_warp)
+              return;
+            m.limit_strain_weft = f.limit_strain_weft;
+            m.limit_strain_warp = f.limit_strain_warp;
           },
           [table = fabric.object](const M& m) -> std::optional<JsonNode> {
             const Fabric* f = std::get_if<Fabric>(&m.law);
             if (!f) return std::nullopt;
-            const FabricInput in = restoreFabric(FabricCase{*f, {}, {}, m.card, m.energy_source});
+            const FabricInput in = restoreFabric(FabricCase{*f, m.limit_strain_weft, m.limit_strain_warp, m.card, m.energy_source});
             return writeObject(*table, &in);
           })
       .in("law")

@@ -24,6 +24,7 @@
 #include "cases/structure/fields.hpp"
 #include "cases/structure/mover.hpp"
 #include "cases/structure/results.hpp"
+#include "cases/structure/stretch.hpp"
 #include "cases/structure/tallies.hpp"
 #include "core/error.hpp"
 #include "core/io/csv.hpp"
@@ -84,6 +85,7 @@ class Run {
  public:
   Run(const StructureCase& c, const RunOptions& options) : c_(c), out_(options.out), folder_(out_, inputsOf(c), false) {
     built_.emplace(c);
+    stretch_.emplace(c, built_->model, built_->mesh);
     removeEarlierResults(out_);
     RecordingLayout layout;
     layout.identity = RunIdentity(caseIdentity(c), built_->model.structure->cloth->kernels(), DeviceKind::cpu).text();
@@ -104,6 +106,7 @@ class Run {
     lead.insert(lead.end(), values.begin(), values.end());
     path.rows.push_back(std::move(lead));
     last_ = state;
+    stretch_->add(state);
     const LawRange range = structure().cloth->lawRange({state.q, {}, state.history});
     if (range.points > 0 && (facts.law_range.points == 0 || range.beyond > facts.law_range.beyond))
       facts.law_range = range;
@@ -150,7 +153,8 @@ class Run {
     if (frames_ > 0) writer_->closeSegment({});
     writeCsv(out_ / "path.csv", path.columns, path.rows);
     writeShapeTable(built_->mesh, shape, out_ / "shape.csv");
-    const std::vector<AuditCheck> checks = structureChecks(c_, built_->model, path, modes, last_, shape, facts);
+    std::vector<AuditCheck> checks = structureChecks(c_, built_->model, path, modes, last_, shape, facts);
+    for (AuditCheck& check : stretch_->checks()) checks.push_back(std::move(check));
     writeStructureSummary(c_, built_->model, path, modes, last_, built_->mesh, shape, facts, checks,
                           out_ / "summary.json");
     std::vector<std::string> failures;
@@ -181,6 +185,7 @@ class Run {
   ResultsFolder folder_;
   Clock::time_point start_ = Clock::now();
   std::optional<BuiltStructure> built_;
+  std::optional<StretchTally> stretch_;
   std::optional<RecordingWriter> writer_;
   int frames_ = 0;
   MeasuredState last_;

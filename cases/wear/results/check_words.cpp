@@ -54,6 +54,11 @@ CheckWords checkWords(const std::string& check, double value, double limit, cons
             "Stress there is a guess: the energy goes on as stiff as at the table's end. A table of a wider range, or a "
             "looser garment, settles it.",
             false};
+  if (check.starts_with("Stretch along the ")) {
+    const std::string who = check.substr(check.find(", ") + 2);
+    return {fmt::format("{} is stretched by {} along its {}", who, much, check.substr(18, 4)),
+            "It may not come back, or tear: the garment is too tight for this fabric.", false};
+  }
   if (check.starts_with("Sinking"))
     return {fmt::format("an edge on springs slides {} along the body", much),
             "The garment hangs lower than it was made to: the torques are those of a garment that slipped.", false};

@@ -11,6 +11,7 @@
 #include "cases/runs/run_identity.hpp"
 #include "cases/wear/results/check_words.hpp"
 #include "cases/wear/results/joint_words.hpp"
+#include "cases/wear/results/stretch_checks.hpp"
 #include "cases/wear/results/write.hpp"
 
 namespace gambeson {
@@ -270,6 +271,7 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
   for (const std::string& note : s.notes) in.notes.push_back("Note: " + note + ".");
   if (m.windows.empty()) in.warnings.push_back("The motion was not reached: nothing was measured.");
   in.audit = auditOf(m);
+  for (AuditCheck& c : stretchChecks(s.definition, m.stretch)) in.audit.push_back(std::move(c));
   for (AuditCheck& c : in.audit)
     if (!c.holds()) {
       const CheckWords words = checkWords(c.name, c.value, c.limit, c.unit);

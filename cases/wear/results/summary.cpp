@@ -8,6 +8,7 @@
 #include "cases/cloth/usual.hpp"
 #include "cases/runs/run_identity.hpp"
 #include "cases/wear/case/fields.hpp"
+#include "cases/wear/results/stretch_checks.hpp"
 #include "cases/wear/results/write.hpp"
 #include "core/io/own_file.hpp"
 
@@ -217,9 +218,11 @@ Json strapsJson(const StrapsMeasure& m, const Vec3& gravity) {
   return j;
 }
 
-Json auditJson(const Measured& m) {
+Json auditJson(const Case& definition, const Measured& m) {
   Json all = Json::array();
-  for (const AuditCheck& c : auditOf(m))
+  std::vector<AuditCheck> checks = auditOf(m);
+  for (AuditCheck& c : stretchChecks(definition, m.stretch)) checks.push_back(std::move(c));
+  for (const AuditCheck& c : checks)
     all.push_back({{"check", c.name}, {"value", c.value}, {"limit", c.limit}, {"unit", c.unit}, {"holds", c.holds()}});
   return all;
 }
@@ -402,7 +405,7 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
       worn.push_back({{"garment", w.garment}, {"length_m", w.length_m}, {"ease_m", w.length_m - g.body_m}});
     j["girths"].push_back({{"zone", g.zone}, {"body_m", g.body_m}, {"worn", worn}});
   }
-  j["audit"] = auditJson(m);
+  j["audit"] = auditJson(s.definition, m);
   if (m.recorded) j["recording"] = recordedJson(*m.recorded);
   Json phases = Json::object();
   for (const auto& [name, seconds] : facts.phases_s) phases[name] = seconds;

@@ -88,6 +88,61 @@ TEST(CardTerms, ALimitOfTheCardIsThatOfTheFabricUnlessTheCaseSaysAnother) {
   EXPECT_LT(*read(R"({"card": "fast.card.json", "limit_strain_warp": 0.1})").limit_strain_weft, 0.1);
 }
 
+schema::FabricInput inputOf(const schema::Entry& entry) {
+  schema::FabricInput in;
+  schema::readObject(schema::fabricTable(), entry, &in);
+  return in;
+}
+
+FabricCase fabricOfText(const std::string& text) {
+  const JsonNode root = parseJson(text, "fabric.json");
+  const std::string name = "fabric.json";
+  const schema::Entry entry{root, "", name};
+  return schema::resolveFabric(entry, inputOf(entry));
+}
+
+// What laboratories give per width needs no thickness: forces per width are those of the same sheet with one.
+TEST(CardTerms, AFabricInNewtonsPerMetreNeedsNoThickness) {
+  const std::string bending = R"("bending": {"law": "linear", "rigidity": "1e-5 N m"})";
+  const std::string membrane =
+      R"json("stiffness_weft": "8000 N/m", "stiffness_warp": "500 N/5cm", "shear_stiffness": "1 gf/(cm deg)",)json";
+  const FabricCase thin = fabricOfText("{\"surface_density\": \"320 gsm\", " + membrane + bending + "}"),
+                   thick = fabricOfText("{\"thickness\": \"2 mm\", \"surface_density\": \"320 gsm\", " + membrane +
+                                        bending + "}");
+  EXPECT_NEAR(thin.thickness_m, 0.32 / 400, 1e-15);
+  EXPECT_EQ(thick.thickness_m, 2e-3);
+  for (const FabricCase* f : {&thin, &thick}) {
+    EXPECT_NEAR(f->young_weft_Pa * f->thickness_m, 8000, 1e-9);
+    EXPECT_NEAR(f->young_warp_Pa * f->thickness_m, 10000, 1e-9);
+    EXPECT_NEAR(f->shear_Pa * f->thickness_m, 56.187965, 1e-5);
+    EXPECT_NEAR(f->surfaceDensity(), 0.32, 1e-15);
+  }
+  const Voigt a = pointLaw(thin).section.A, b = pointLaw(thick).section.A;
+  for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], 1e-12 * 10000);
+  const FabricCase even =
+      fabricOfText(R"({"surface_density": "320 gsm", "stiffness": "600 N/m", "poisson": 0.2, )" + bending + "}");
+  EXPECT_NEAR(even.shear_Pa * even.thickness_m, 600 / 2.4, 1e-9);
+  // In place of a card's.
+  const FabricCase of_card = fabricOfText(R"({"card": "denim_a", "stiffness_weft": "3000 N/m"})");
+  EXPECT_NEAR(of_card.young_weft_Pa * of_card.thickness_m, 3000, 1e-9);
+  EXPECT_EQ(of_card.young_warp_Pa, fabricOf(readCard("denim_a")).fabric.young_warp_Pa);
+  const auto refused = [&](const std::string& text) {
+    try {
+      fabricOfText(text);
+    } catch (const InputError& e) {
+      return e.where().key;
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(refused("{\"density\": 400, " + membrane + bending + "}"), "thickness");
+  EXPECT_EQ(refused(R"({"surface_density": 0.3, "stiffness_weft": 8000, "shear_stiffness": 50, )" + bending + "}"),
+            "stiffness_warp");
+  EXPECT_EQ(refused(R"({"surface_density": 0.3, "stiffness": 8000, "stiffness_weft": 8000, )" + bending + "}"),
+            "stiffness_weft");
+  EXPECT_EQ(refused(R"({"thickness": 1e-3, "surface_density": 0.3, "stiffness": 8000, "shear": 1e5, )" + bending + "}"),
+            "stiffness");
+}
+
 TEST(CardTerms, PointsAreACurveWhereTheCardSaysSo) {
   const Folder folder;
   const FabricCard card = readCard(folder.write("curve.card.json", R"json({

@@ -30,7 +30,34 @@ TEST(LibraryCards, AllAreReadAndSayWhereTheyAreFrom) {
     EXPECT_GT(fabric.shear_Pa, 0);
     EXPECT_LT(fabric.poisson * fabric.poisson * fabric.young_warp_Pa, fabric.young_weft_Pa);
   }
-  EXPECT_EQ(names.size(), 16u);
+  EXPECT_EQ(names.size(), 22u);
+}
+
+/// Of one cloth of Petrak et al. 2025 (doi:10.3390/su17041388): weight [g/m^2], thickness [mm], G [N/m], rigidity along
+/// weft and warp [1e-9 N m], drape coefficient [%].
+struct Draping {
+  const char* name;
+  double weight, thickness, shear, weft, warp, drape;
+};
+
+TEST(LibraryCards, ClothsOfPetrakHaveTheNumbersOfTheirTables) {
+  for (const Draping& d : {Draping{"m1_polyester_twill", 135.17, 0.31, 41, 610, 1950, 22.3},
+                           Draping{"m2_polyester_plain", 83.66, 0.25, 46, 330, 850, 22.8},
+                           Draping{"m3_wool_twill", 178.70, 0.40, 50, 2000, 2140, 34.9},
+                           Draping{"m4_viscose_twill", 286.13, 0.61, 61, 2400, 2970, 28.6},
+                           Draping{"m5_stretch_plain", 242.00, 0.56, 57, 3880, 3220, 44.3},
+                           Draping{"m6_cotton_twill", 253.36, 0.62, 126, 3700, 7430, 54.9}}) {
+    SCOPED_TRACE(d.name);
+    const FabricCard card = readCard(cardFile(std::string("petrak_") + d.name));
+    EXPECT_NEAR(*card.weight_kg_per_m2, 1e-3 * d.weight, 1e-12);
+    EXPECT_NEAR(card.thickness_m, 1e-3 * d.thickness, 1e-12);
+    EXPECT_NEAR(card.shear->rigidity.mean(), d.shear, 1e-9);
+    EXPECT_NEAR(*card.bending.rigidity.weft, 1e-9 * d.weft, 1e-16);
+    EXPECT_NEAR(*card.bending.rigidity.warp, 1e-9 * d.warp, 1e-16);
+    EXPECT_NEAR(card.drape->coefficient, 0.01 * d.drape, 1e-12);
+    EXPECT_EQ(card.drape->specimen_m, 0.3);
+    EXPECT_FALSE(card.tensile);
+  }
 }
 
 TEST(LibraryCards, DenimsHaveTheNumbersOfTheirTable) {

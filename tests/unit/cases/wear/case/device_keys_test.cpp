@@ -45,6 +45,7 @@ const Keys carried{
     {"Friction", "kinetic"},
     {"Fabric",
      "card name thickness density surface_density young young_weft young_warp shear poisson "
+     "stiffness stiffness_weft stiffness_warp shear_stiffness "
      "jam_area limit_strain limit_strain_weft limit_strain_warp bending"},
     {"Bending",
      "law rigidity rigidity_weft rigidity_warp kappa0 regular_curvature yield_moment loop twist "

@@ -7,6 +7,8 @@
 #include <functional>
 
 #include "cases/wear/recording/recorder.hpp"
+#include "cases/wear/results/check_words.hpp"
+#include "cases/wear/results/stretch_checks.hpp"
 #include "cases/wear/results/write.hpp"
 #include "unit/cases/example.hpp"
 #include "unit/shell_of.hpp"
@@ -80,6 +82,44 @@ TEST(Fit, StretchIsToldAlongWeftAndWarp) {
     EXPECT_EQ(m.stretch[1].limit, kStrainOfLaw);
     EXPECT_FALSE(m.stretch[1].stated);
   }
+}
+
+/// A garment whose fabric is of a card fails a check that names it, where it is stretched past the card's elongation;
+/// of a limit that a case states without a card the check has the fabric's name.
+TEST(Fit, PastTheLimitOfItsCardAGarmentFailsACheckByName) {
+  const Folder folder;
+  folder.write("knit.card.json", R"json({"name": "Soft knit", "source": "made up for a test", "description": "none",
+    "weight": "500 g/m^2", "tensile": {"modulus": "1000 N/m"}, "shear": {"G": "300 N/(m rad)"},
+    "bending": {"B": "1e-4 N m"}, "elongation_weft": "8 %", "elongation_warp": "8 %"})json");
+  const std::string of_card = R"json({"name": "cloth",
+    "garment": {"sheet": {"width": "0.1 m", "height": "0.1 m", "cells_u": 3, "cells_v": 3}},
+    "fabric": {"card": "knit.card.json"}, "time": {"duration": 0.1}})json";
+  const std::string stated =
+      with(with(with(cloth, "ANGLE", "0"), "WEFT", "8"), "\"fabric\": {", "\"fabric\": {\"name\": \"Felt\", ");
+  for (const auto& [text, name, limit] :
+       {std::tuple(of_card, "Soft knit (card knit.card.json)", 8.32), std::tuple(stated, "Felt", 8.)})
+    for (const double stretch : {1.05, 1.1}) {
+      SCOPED_TRACE(testing::Message() << name << " " << stretch);
+      const auto s = buildScenario(readCase(folder.write("cloth.json", text)));
+      const std::filesystem::path dir = folder.path() / (std::string(name) + std::to_string(stretch));
+      record(*s, dir, {0, 0.02}, [=](double, const Vec3& p) { return Vec3{stretch * p.x, p.y, p.z}; });
+      Measured m;
+      m.regions = regionsOf(*s);
+      const RecordingReader recording(dir);
+      measureFrames(recording, m);
+      measureStretch(*s, recording, m);
+      const std::vector<AuditCheck> checks = stretchChecks(s->definition, m.stretch);
+      const auto found = std::find_if(checks.begin(), checks.end(), [&](const AuditCheck& c) {
+        return c.name == std::string("Stretch along the weft, ") + name;
+      });
+      ASSERT_NE(found, checks.end());
+      EXPECT_NEAR(found->value, 100 * (stretch * stretch - 1) / 2, 1e-3);
+      EXPECT_NEAR(found->limit, limit, 1e-9);
+      EXPECT_EQ(found->holds(), stretch < 1.08);
+      const std::string said = notMet(found->name, found->value, found->limit, found->unit);
+      EXPECT_NE(said.find("It may not come back, or tear"), std::string::npos) << said;
+      EXPECT_NE(checkWords(found->name, found->value, found->limit, found->unit).wrong.find(name), std::string::npos);
+    }
 }
 
 TEST(Fit, WithoutALimitTheLawsOwnRangeHolds) {

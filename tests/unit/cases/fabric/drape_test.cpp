@@ -1,0 +1,102 @@
+// Cusick's tester: a stiff ring sinks as a plate does, a rigid one not at all; a limp one folds.
+#include "cases/fabric/drape.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cases/cloth/card_library.hpp"
+#include "cases/fabric/lab_test.hpp"
+#include "cases/runs/results_folder.hpp"
+
+namespace gambeson {
+namespace {
+
+using laboratory::Draped;
+using laboratory::Specimen;
+
+Fabric evenCloth(double rigidity_Nm, double weight_kg_per_m2) {
+  Fabric f;
+  f.thickness_m = 1e-3;
+  f.density_kg_per_m3 = weight_kg_per_m2 / f.thickness_m;
+  f.young_weft_Pa = f.young_warp_Pa = 1e7;
+  f.shear_Pa = 5e6;
+  f.law = LinearBending{GivenRigidities{rigidity_Nm, rigidity_Nm, 0.5 * rigidity_Nm}};
+  return f;
+}
+
+Specimen ring(int cells, int degree) {
+  Specimen s;
+  s.cells = cells;
+  s.degree = degree;
+  return s;
+}
+
+double lowest(const Draped& d) {
+  double z = 0;
+  for (const Vec3& x : d.points) z = std::min(z, x.z);
+  return -z;
+}
+
+/// Deflection at the rim of a ring under a load q per area, clamped at a and free at b, of a plate without contraction
+/// (nu = 0): D w = q r^4/64 + C1 + C2 ln r + C3 r^2 + C4 r^2 ln r, no shear force and no moment at b. Timoshenko and
+/// Woinowsky-Krieger, Theory of plates and shells, 2nd ed., art. 15 to 17.
+double rimOfPlate(double q, double D, double a, double b) {
+  const double C4 = -q * b * b / 8;
+  // Slope at a: C2/a + 2 a C3 = p; curvature at b: -C2/b^2 + 2 C3 = s.
+  const double p = -q * a * a * a / 16 - C4 * (2 * a * std::log(a) + a);
+  const double s = -3 * q * b * b / 16 - C4 * (2 * std::log(b) + 3);
+  const double C2 = (p - a * s) / (1 / a + a / (b * b)), C3 = 0.5 * (s + C2 / (b * b));
+  const auto w = [&](double r) {
+    return q * r * r * r * r / 64 + C2 * std::log(r) + C3 * r * r + C4 * r * r * std::log(r);
+  };
+  return (w(b) - w(a)) / D;
+}
+
+TEST(Drape, ARigidDiscStaysAndAStiffOneSinksAsAPlate) {
+  useThreads(1);
+  const double weight = 0.2, q = 9.80665 * weight;
+  const Draped rigid = laboratory::drape(evenCloth(1e3, weight), ring(8, 2));
+  EXPECT_NEAR(rigid.coefficient, 1, 1e-9);
+  EXPECT_EQ(rigid.nodes, 0);
+  // So stiff that hoops are not stretched (sqrt(12 D/A) = 35 mm against 4 um).
+  const Draped stiff = laboratory::drape(evenCloth(1, weight), ring(16, 2));
+  const double plate = rimOfPlate(q, 1, 0.09, 0.15);
+  EXPECT_NEAR(lowest(stiff), plate, 0.01 * plate);
+  EXPECT_NEAR(stiff.coefficient, 1, 1e-6);
+  EXPECT_EQ(stiff.nodes, 0);
+}
+
+TEST(Drape, SofterClothFoldsAndHasLessShadow) {
+  useThreads(1);
+  double before = 1;
+  for (const double rigidity : {2e-4, 2e-5}) {
+    const Draped d = laboratory::drape(evenCloth(rigidity, 0.2), ring(8, 2));
+    EXPECT_LT(d.coefficient, before) << rigidity;
+    before = d.coefficient;
+    EXPECT_EQ(d.crossings, 0);
+    if (rigidity < 1e-4) {
+      EXPECT_GE(d.nodes, 2);
+    }
+  }
+  EXPECT_LT(before, 0.95);
+}
+
+TEST(Drape, TheCardsCoefficientStandsBesideTheSimulatedOne) {
+  useThreads(1);
+  FabricCard card = readCard("petrak_m6_cotton_twill");
+  EXPECT_EQ(testsOf(card).back(), LabTest::drape);
+  card.bending.rigidity.weft = card.bending.rigidity.warp = 1e-2;
+  card.drape->nodes = 0;
+  const MeasuredTest test = measureTest(LabTest::drape, 0, card, fabricOf(card), ring(8, 2));
+  EXPECT_EQ(test.stem(), "drape");
+  ASSERT_EQ(test.readings.size(), 2u);
+  EXPECT_DOUBLE_EQ(*test.readings[0].card, 0.549);
+  EXPECT_TRUE(test.readings[0].share);
+  EXPECT_GT(test.readings[0].measured, 0.999);
+  EXPECT_EQ(*test.readings[1].card, 0);
+  EXPECT_EQ(test.loop.size(), test.draped->outline.size() + 1) << "a closed outline";
+}
+
+}  // namespace
+}  // namespace gambeson
