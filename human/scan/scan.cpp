@@ -16,6 +16,7 @@
 #include "human/scan/joints.hpp"
 #include "human/scan/landmarks.hpp"
 #include "human/scan/repair.hpp"
+#include "human/scan/tailor.hpp"
 #include "human/scan/upright.hpp"
 #include "human/scan/weights.hpp"
 #include "human/skeleton/joint_map.hpp"

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "human/body/body.hpp"
-#include "human/scan/tailor.hpp"
 
 namespace gambeson {
 
@@ -22,11 +21,17 @@ struct ScanOptions {
   bool folds_off = false;          ///< as CharacterOptions
 };
 
+/// A girth of the scan as it lies in the file, and of the skin made of it in the standing posture [m].
+struct ScanGirth {
+  std::string name;
+  double scan_m = 0, standing_m = 0;
+};
+
 struct ScanReport {
   char pose = 0;        ///< T or A
   double arms_deg = 0;  ///< of the upper arms from hanging down
   double height_m = 0, volume_m3 = 0;
-  std::vector<ScanGirth> girths;  ///< those of girths.hpp, then those of tailor.hpp
+  std::vector<ScanGirth> girths;
   std::vector<std::string> notes;
 };
 

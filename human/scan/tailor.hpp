@@ -1,18 +1,11 @@
 #pragma once
 /// Girths of a scan where tailors take them (ISO 8559-1): where the body is widest and narrowest, not at joints.
 
-#include <string>
 #include <vector>
 
-#include "human/body/body.hpp"
+#include "human/scan/scan.hpp"
 
 namespace gambeson {
-
-/// A girth of the scan as it lies in the file, and of the skin made of it in the standing posture [m].
-struct ScanGirth {
-  std::string name;
-  double scan_m = 0, standing_m = 0;
-};
 
 /// "widest hip" (between crotch and waist), "narrowest waist" (between lumbar joint and chest) and "top of thigh_left",
 /// "top of thigh_right" (across the leg where the legs part). The scan's body stands in `human.skin->bind`, its crotch
