@@ -8,7 +8,7 @@
 namespace gambeson {
 namespace {
 
-constexpr double kWaist = 0.1, kChest = 0.56, kThigh = 0.25, kUpperArm = 0.5;
+constexpr double kWaist = 0.1, kChest = 0.56, kThigh = 0.35, kUpperArm = 0.5;
 
 bool isOf(const std::vector<int>& links, int link) {
   return std::find(links.begin(), links.end(), link) != links.end();

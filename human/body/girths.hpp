@@ -11,7 +11,7 @@
 namespace gambeson {
 
 /// Across a part of the body: hip (through the hip joints), waist (a tenth of the way from the lumbar joint to the
-/// neck's), chest (0.56 of it), thigh_left, thigh_right (a quarter of the thigh below the hip joint), upper_arm_left,
+/// neck's), chest (0.56 of it), thigh_left, thigh_right (0.35 of the thigh below the hip joint), upper_arm_left,
 /// upper_arm_right (halfway). The plane moves with its link; e1 and e2 span it.
 struct GirthPlane {
   std::string zone;

@@ -7,8 +7,10 @@
 #include <assimp/IOStream.hpp>
 #include <assimp/IOSystem.hpp>
 #include <cctype>
+#include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <sstream>
 
 #include "core/error.hpp"
 #include "human/files/ply_check.hpp"
@@ -88,6 +90,35 @@ void checkDepth(std::string_view json, const std::string& file) {
   }
 }
 
+/// Throws InputError with the line of the first face of an OBJ that names a vertex which is not there.
+void checkIndices(std::string_view obj, const std::string& file) {
+  long vertices = 0;
+  int number = 0;
+  for (std::size_t begin = 0; begin < obj.size(); ++number) {
+    const std::size_t end = std::min(obj.find('\n', begin), obj.size());
+    std::istringstream line{std::string(obj.substr(begin, end - begin))};
+    begin = end + 1;
+    std::string word;
+    line >> word;
+    if (word == "v") ++vertices;
+    if (word != "f") continue;
+    while (line >> word) {
+      const long index = std::strtol(word.c_str(), nullptr, 10);
+      if (index == 0 || std::abs(index) > vertices)
+        throw InputError({file, number + 1, "f"},
+                         fmt::format("names vertex '{}' of the {} before it", word.substr(0, 20), vertices));
+    }
+  }
+}
+
+/// What assimp says of files without a surface, in a user's words.
+std::string inWords(const std::string& said) {
+  for (const char* none : {"mNumMeshes is 0", "contains no faces", "no faces"})
+    if (said.find(none) != std::string::npos)
+      return "holds no surface: triangles or polygons between vertices are needed";
+  return said;
+}
+
 /// The JSON of a binary glTF: its first chunk, after 12 bytes of header and 8 of its own.
 std::string_view jsonOf(std::string_view glb) { return glb.substr(std::min<std::size_t>(20, glb.size())); }
 
@@ -125,7 +156,8 @@ const aiScene& importScene(Assimp::Importer& importer, const std::filesystem::pa
   }
   importer.SetIOHandler(nullptr);
   if (!scene && refused) throw InputError(refused->where(), refused->reason());
-  if (!scene) throw InputError({name, 0, ""}, importer.GetErrorString());
+  if (!scene && extension == ".obj") checkIndices(text, name);
+  if (!scene) throw InputError({name, 0, ""}, inWords(importer.GetErrorString()));
   // Triangulating a mesh some of whose faces have no corner ends the program in an assertion of assimp.
   for (unsigned k = 0; k < scene->mNumMeshes; ++k)
     for (unsigned i = 0; i < scene->mMeshes[k]->mNumFaces; ++i)

@@ -6,13 +6,12 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "core/error.hpp"
 #include "human/body/section.hpp"
-#include "human/files/data.hpp"
 #include "human/manikin/manikin.hpp"
 #include "human/manikin/person.hpp"
+#include "human/manikin/regressions.hpp"
 
 namespace gambeson {
 namespace {
@@ -35,18 +34,6 @@ constexpr std::array<const char*, 8> kSegments{"head", "trunk", "upper_arm", "fo
                                                "hand", "thigh", "shank",     "foot"};
 constexpr std::array<double, 8> kMale{6.94, 43.46, 2.71, 1.62, 0.61, 14.16, 4.33, 1.37};
 constexpr std::array<double, 8> kFemale{6.68, 42.57, 2.55, 1.38, 0.56, 14.78, 4.81, 1.29};
-
-struct Regressions {
-  Json of;  ///< one sex
-  double stature_mm, mass_kg;
-
-  double m(const char* name) const {
-    const Json& r = of.at("measures").at(name);
-    return 1e-3 * (r.at(0).get<double>() + r.at(1).get<double>() * stature_mm + r.at(2).get<double>() * mass_kg);
-  }
-  double error_m(const char* name) const { return 1e-3 * of.at("measures").at(name).at(3).get<double>(); }
-  double radius(const char* girth) const { return m(girth) / (2 * std::numbers::pi); }
-};
 
 [[noreturn]] void reject(const char* key, const std::string& reason) { throw InputError({"", 0, key}, reason); }
 
@@ -160,9 +147,8 @@ double girthAt(const Human& human, double height_m, const std::vector<std::strin
 }
 
 Human makeManikin(const ManikinMeasures& a, MeasuresReport* report) {
-  const Json all = Json::parse(data::regressions);
   const bool female = a.sex == Sex::female;
-  const Regressions r{all.at(female ? "female" : "male"), 1000 * a.stature_m, a.mass_kg};
+  const Regressions r = regressionsFor(a.sex, a.stature_m, a.mass_kg);
   const double index = a.mass_kg / (a.stature_m * a.stature_m);
   if (!(index >= kLeastIndex && index <= kMostIndex))
     reject("mass",

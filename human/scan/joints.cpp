@@ -1,24 +1,44 @@
 #include "human/scan/joints.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "core/error.hpp"
+#include "human/manikin/regressions.hpp"
 #include "human/scan/loops.hpp"
 
 namespace gambeson {
 namespace {
 
-/// Where joints lie, in statures: of our six manikins, whose joint centres are those of ANSUR II and OpenSim, within
-/// 0.01; sections give what lies across a limb. Rigs of characters place hips by other rules: MakeHuman's lie 0.015 of
-/// a stature further out.
-constexpr double kHipAboveCrotch = 0.0465, kHipLateral = 0.0495, kHipAheadOfCrotch = 0.002;
-constexpr double kLumbarAboveCrotch = 0.102, kLumbarBehindCentre = 0.024;
-constexpr double kNeckHeight = 0.855, kNeckBelowThinnest = 0.006, kNeckBehindCentre = 0.0095;
-constexpr double kAnkleHeight = 0.0415, kAnkleOfFoot = 0.224;  ///< the latter: share of the foot's length from the heel
-constexpr double kKneeOfLeg = 0.5;                             ///< from ankle to hip
-constexpr double kShoulderLateral = 0.1015, kShoulderHeight = 0.799;
-constexpr double kElbowOfArm = 0.485;  ///< from wrist to shoulder
+/// Heights of joints are those that people of the body's stature and mass have in the mean of both sexes (ANSUR II, the
+/// rules of human/data/manikins.json: hip at the trochanterion, knee at the lateral femoral epicondyle, ankle at the
+/// lateral malleolus, shoulder below and inside the acromion), moved by what the body's own landmarks say. What follows
+/// are the places across, and what skins show of those heights, in statures where no other unit is named.
+constexpr double kShoulderBelowAcromion_m = 0.032, kShoulderInside_m = 0.024;
+/// The crotch of a skin lies this far below the hip joints. A hip's height is moved by a part of what the crotch is
+/// higher or lower than expected: both vary about their regressions by 25 mm, not wholly together.
+constexpr double kHipAboveCrotch = 0.048, kHipByCrotch = 0.7;
+/// Hip joints are 8 mm + 0.086 leg lengths from the median plane and 9 mm + 0.078 leg lengths below the anterior
+/// superior iliac spines (Hara et al. 2016, doi 10.1038/srep37707; 180 people by magnetic resonance or tomography, 5 to
+/// 40 years; leg length: spine to medial malleolus).
+constexpr double kHaraLateral_m = 0.008, kHaraLateral = 0.086, kHaraBelow_m = 0.009, kHaraBelow = 0.078;
+constexpr double kHipOfDepth = 0.54;  ///< of the trunk's depth there, from behind
+constexpr double kLumbarAboveHip = 0.058, kLumbarBehindCentre = 0.0225;
+constexpr double kNeckBelowThinnest = 0.004, kNeckBehindCentre = 0.0095;
+constexpr double kAnkleOfFoot = 0.224;    ///< share of the foot's length from the heel
+constexpr double kShoulderAhead = 0.004;  ///< of the upper arm's line
+constexpr double kElbowOfArm = 0.485;     ///< from wrist to shoulder
+
+constexpr double kWristByHand = 0.3;
+
+/// Lengths between joints that people have, in statures: 1st to 99th percentile of ANSUR II with a quarter more on
+/// either side, for what is measured on skins, and for characters.
+constexpr std::array<double, 2> kThigh{0.17, 0.31}, kShank{0.17, 0.31}, kUpperArm{0.125, 0.23}, kForearm{0.105, 0.20},
+    kHand{0.065, 0.15};
 
 struct Line {
   Vec3 through, along;
@@ -37,17 +57,44 @@ Line lineThrough(const LimbLine& limb, double from, double to) {
   return {0.5 * (first + second), normalized(second - first)};
 }
 
+/// How far along a limb it is this far from its tip; its end where it does not reach that far.
+double farFrom(const LimbLine& limb, const Vec3& tip, double distance) {
+  for (std::size_t i = 0; i < limb.size(); ++i)
+    if (norm(limb.centre[i] - tip) >= distance) return limb.along[i];
+  return limb.along.back();
+}
+
+double volumeOf(const TriangleMesh& body) {
+  double v = 0;
+  for (const auto& t : body.triangles)
+    v += dot(body.vertices[t[0]], cross(body.vertices[t[1]], body.vertices[t[2]])) / 6;
+  return v;
+}
+
 }  // namespace
 
 std::map<std::string, Vec3> jointsOf(const TriangleMesh& body, const Landmarks& l) {
-  const double H = l.stature_m;
+  constexpr double kDensity_kg_per_m3 = 1000;
+  const double H = l.stature_m, mass = kDensity_kg_per_m3 * volumeOf(body);
+  const auto mean = [&](const char* name) { return meanMeasure(name, H, mass); };
   std::map<std::string, Vec3> at;
+  const double ankle_z = mean("lateralmalleolusheight"), hip_mean = mean("trochanterionheight"),
+               hip_z = hip_mean + kHipByCrotch * (l.crotch.z + kHipAboveCrotch * H - hip_mean),
+               knee_of_leg = (mean("lateralfemoralepicondyleheight") - ankle_z) / (hip_mean - ankle_z);
+  const double leg_length = (hip_z - ankle_z + kHaraBelow_m) / (1 - kHaraBelow);
+  const auto trunkAt = [&](double z) {
+    const std::vector<CutLoop> loops = cutLoops(body, CutPlane::level(z));
+    const CutLoop* trunk = nearestLoop(loops, {l.crotch.x, l.crotch.y});
+    return trunk ? *trunk : CutLoop{{{l.crotch.x, l.crotch.y}}, {l.crotch.x, l.crotch.y}};
+  };
+  const CutLoop hips = trunkAt(hip_z);
+  const double hip_x = hips.low(0) + kHipOfDepth * (hips.high(0) - hips.low(0));
   for (int side = 0; side < 2; ++side) {
     const auto s = static_cast<std::size_t>(side);
     const std::string name = side == 0 ? "_right" : "_left";
     const double sign = side == 0 ? -1 : 1;
 
-    const Vec3 hip = l.crotch + H * Vec3{kHipAheadOfCrotch, sign * kHipLateral, kHipAboveCrotch};
+    const Vec3 hip{hip_x, l.crotch.y + sign * (kHaraLateral_m + kHaraLateral * leg_length), hip_z};
     const LimbLine& leg = l.leg[s];
     const auto level = [&](double z) { return leg.at(z - leg.centre.front().z); };
     // Along a leg lengths are nearly heights; one step mends the rest.
@@ -56,22 +103,25 @@ std::map<std::string, Vec3> jointsOf(const TriangleMesh& body, const Landmarks& 
       for (int i = 0; i < 3; ++i) x = level(z + (z - x.z));
       return x;
     };
-    Vec3 ankle = at_height(kAnkleHeight * H);
+    Vec3 ankle = at_height(ankle_z);
     ankle.x = l.heel[s].x + kAnkleOfFoot * (l.toe_tip[s].x - l.heel[s].x);
-    const Vec3 knee = at_height(ankle.z + kKneeOfLeg * (hip.z - ankle.z));
+    const Vec3 knee = at_height(ankle.z + knee_of_leg * (hip.z - ankle.z));
     at["thigh" + name] = hip, at["shank" + name] = knee, at["foot" + name] = ankle;
     at["toes" + name] = l.ball[s];
 
     const LimbLine& arm = l.arm[s];
-    const double end = arm.along.back(), wrist = l.wrist[s];
+    // Where an arm is thinnest is flat on a lean one, and a hand's length is that of a hand that is open.
+    const double end = arm.along.back(), by_hand = farFrom(arm, l.hand_tip[s], mean("handlength")),
+                 wrist = l.wrist[s] + kWristByHand * (by_hand - l.wrist[s]);
     // The upper arm's line, from its middle part, on to where shoulders lie.
     const double middle = 0.5 * (wrist + end);
     Line upper = lineThrough(arm, middle + 0.15 * (end - middle), middle + 0.75 * (end - middle));
-    const Vec3 expected{upper.through.x, l.crotch.y + sign * kShoulderLateral * H, kShoulderHeight * H};
+    const Vec3 expected{upper.through.x, l.crotch.y + sign * (0.5 * mean("biacromialbreadth") - kShoulderInside_m),
+                        mean("acromialheight") - kShoulderBelowAcromion_m};
     Vec3 shoulder = upper.nearest(expected);
     // What is left across the line is between the arm's and the joint's own place: half of it.
     const Vec3 across = expected - shoulder;
-    shoulder += 0.5 * Vec3{0, across.y, across.z};
+    shoulder += Vec3{kShoulderAhead * H, 0.5 * across.y, 0.5 * across.z};
     const double reach = end + norm(shoulder - arm.centre.back());
     const double elbow_at = wrist + kElbowOfArm * (reach - wrist);
     // A bent arm's sections cut the corner; the lines of its two halves do not.
@@ -82,14 +132,34 @@ std::map<std::string, Vec3> jointsOf(const TriangleMesh& body, const Landmarks& 
     at["upper_arm" + name] = shoulder;
     at["hand" + name] = arm.at(wrist);
   }
-  const double lumbar_z = l.crotch.z + kLumbarAboveCrotch * H;
-  const std::vector<CutLoop> loops = cutLoops(body, CutPlane::level(lumbar_z));
-  const CutLoop* trunk = nearestLoop(loops, {l.crotch.x, l.crotch.y});
-  at["torso"] = {(trunk ? trunk->centre.x : l.crotch.x) - kLumbarBehindCentre * H, l.crotch.y, lumbar_z};
+  const double lumbar_z = hip_z + kLumbarAboveHip * H;
+  at["torso"] = {trunkAt(lumbar_z).centre.x - kLumbarBehindCentre * H, l.crotch.y, lumbar_z};
   at["head"] = {l.neck.centre.x - kNeckBehindCentre * H, l.crotch.y,
-                0.5 * (kNeckHeight * H + l.neck_height_m - kNeckBelowThinnest * H)};
+                0.5 * (mean("cervicaleheight") + l.neck_height_m - kNeckBelowThinnest * H)};
   at["pelvis"] = 0.5 * (at["thigh_right"] + at["thigh_left"]);
   return at;
+}
+
+void checkLengths(const std::map<std::string, Vec3>& at, const Landmarks& l, const std::string& file) {
+  const double H = l.stature_m;
+  const auto check = [&](const std::string& key, const std::string& what, double found, double least, double most) {
+    if (!(found > least * H && found < most * H))
+      throw InputError({file, 0, key},
+                       fmt::format("the {} comes out {:.3f} m long, {:.3f} of the body's height; people's "
+                                   "are {:.3f} to {:.3f} of it: is the limb whole, straight and finely "
+                                   "enough meshed (edges of at most 2 cm)?",
+                                   what, found, found / H, least, most));
+  };
+  for (const std::string side : {"right", "left"}) {
+    const auto length = [&](const char* from, const char* to) {
+      return norm(at.at(fmt::format("{}_{}", to, side)) - at.at(fmt::format("{}_{}", from, side)));
+    };
+    check("leg_" + side, side + " thigh", length("thigh", "shank"), kThigh[0], kThigh[1]);
+    check("leg_" + side, side + " shank", length("shank", "foot"), kShank[0], kShank[1]);
+    check("arm_" + side, side + " upper arm", length("upper_arm", "forearm"), kUpperArm[0], kUpperArm[1]);
+    check("arm_" + side, side + " forearm", length("forearm", "hand"), kForearm[0], kForearm[1]);
+    check("arm_" + side, side + " hand", norm(l.hand_tip[side == "left"] - at.at("hand_" + side)), kHand[0], kHand[1]);
+  }
 }
 
 }  // namespace gambeson

@@ -12,4 +12,8 @@ namespace gambeson {
 /// and toes_left, toes_right: a point ahead of the ankle at the ball of the foot. In the body's axes [m].
 std::map<std::string, Vec3> jointsOf(const TriangleMesh& body, const Landmarks& landmarks);
 
+/// Throws InputError with `file` and the limb as key where a segment between joints has a length that no person's has:
+/// a landmark was taken for another.
+void checkLengths(const std::map<std::string, Vec3>& joints, const Landmarks& landmarks, const std::string& file);
+
 }  // namespace gambeson

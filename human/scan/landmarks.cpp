@@ -25,7 +25,8 @@ constexpr double kFirstSection = 0.20;               ///< from the finger tip: t
 constexpr double kLeastArm = 0.25, kMostArm = 0.55;  ///< finger tip to armpit
 constexpr double kArmpit = 0.122;                    ///< nearer to the median plane arms are part of the trunk
 constexpr double kThinnest = 1.04;
-constexpr double kJump = 1.35;  ///< growth of a section's area over a step where limbs join
+constexpr double kLeastFoot = 0.105, kMostFoot = 0.23;  ///< foot length 0.14 to 0.165 (ANSUR II); shoes are longer
+constexpr double kJump = 1.35;                          ///< growth of a section's area over a step where limbs join
 
 class Finder {
  public:
@@ -132,6 +133,12 @@ class Finder {
       }
       if (!std::isfinite(toe.x))
         fail("feet", fmt::format("there is no {} foot on the ground", name(static_cast<int>(s))));
+      if (const double length = toe.x - heel.x; !(length > kLeastFoot * H_ && length < kMostFoot * H_))
+        fail("feet",
+             fmt::format("the {} foot is {:.3f} m long, {:.3f} of the body's height; feet and shoes are {:.2f} to "
+                         "{:.2f} of it: is the body cut off above its feet, or does it face another way (say "
+                         "\"facing\")?",
+                         name(static_cast<int>(s)), length, length / H_, kLeastFoot, kMostFoot));
       out_.toe_tip[s] = toe, out_.heel[s] = heel;
       Vec3 sum;
       double n = 0;

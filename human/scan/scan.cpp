@@ -16,6 +16,7 @@
 #include "human/scan/joints.hpp"
 #include "human/scan/landmarks.hpp"
 #include "human/scan/repair.hpp"
+#include "human/scan/tailor.hpp"
 #include "human/scan/upright.hpp"
 #include "human/scan/weights.hpp"
 #include "human/skeleton/joint_map.hpp"
@@ -27,6 +28,7 @@ RiggedMesh rigged(TriangleMesh body, const std::string& file, const Landmarks& m
   RiggedMesh out;
   out.file = file;
   const std::map<std::string, Vec3> joints = jointsOf(body, marks);
+  checkLengths(joints, marks, file);
   for (const std::string& link : scanLinks()) out.bones.push_back({link, -1, joints.at(link)});
   for (const char* side : {"_left", "_right"})
     out.bones.push_back({std::string("toes") + side, -1, joints.at(std::string("toes") + side)});
@@ -82,10 +84,11 @@ Human scanOf(const TriangleMesh& raw, const ScanOptions& o, ScanReport* report) 
   said.pose = found.pose, said.arms_deg = found.arms_deg, said.height_m = found.height_m;
   said.volume_m3 = found.volume_m3;
   const Posture posture = standing(human);
-  const auto scanned = girthsOf(human, human.skin->bind),
-             stands = girthsOf(human, linkPoses(human.skeleton, posture.q, posture.root));
+  const std::vector<Pose> links = linkPoses(human.skeleton, posture.q, posture.root);
+  const auto scanned = girthsOf(human, human.skin->bind), stands = girthsOf(human, links);
   for (std::size_t k = 0; k < scanned.size(); ++k)
     said.girths.push_back({scanned[k].first, scanned[k].second, stands[k].second});
+  for (ScanGirth& g : tailorsGirths(human, marks.crotch.z, links)) said.girths.push_back(std::move(g));
   return human;
 }
 

@@ -16,6 +16,9 @@ namespace {
 
 constexpr double kLeast_m = 1.2, kMost_m = 2.3;
 constexpr double kAskew_rad = 0.05;
+/// In heights: a head is at most this far from above the ankles, and nothing further from them to a side (half the span
+/// of arms is 0.52 of a stature, ANSUR II).
+constexpr double kMostLean = 0.17, kMostSide = 0.75;
 
 struct Unit {
   const char* name;
@@ -152,6 +155,21 @@ TriangleMesh upright(TriangleMesh body, const Stance& given, const std::string& 
   }
   const double middle_x = behind > ahead && !given.facing ? -ankle.x : ankle.x;
   for (Vec3& x : body.vertices) x.x -= middle_x, x.y -= 0.5 * (left + right);
+  Vec3 head;
+  double tops = 0;
+  for (const Vec3& x : body.vertices) {
+    if (x.z > 0.93 * H) head += x, tops += 1;
+    if (const double aside = std::max(std::abs(x.x), std::abs(x.y)); aside > kMostSide * H)
+      fail("shape",
+           fmt::format("has a point {:.2f} m to a side of its feet, {:.2f} of its height; arms reach 0.5 of it: "
+                       "a spike, or something beside the body. Remove it from the file",
+                       aside, aside / H));
+  }
+  if (const double lean = std::hypot(head.x / tops, head.y / tops); lean > kMostLean * H)
+    fail("up",
+         fmt::format("its head is {:.2f} m beside its feet, so it leans by {:.0f} degrees from the axis that is up. "
+                     "Turn the file until the body is upright",
+                     lean, std::atan2(lean, 0.9 * H) * 180 / std::numbers::pi));
   return body;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <string>
 
 #include "cases/wear/results/measure.hpp"
 #include "cases/wear/scene/placed_bodies.hpp"
@@ -20,13 +22,36 @@ constexpr double kReach = 1.9;
 /// A garment goes around where its pieces are seen from the middle under all but this part of the full turn.
 constexpr int kSectors = 36, kMissing = 2;
 
+/// In a plane's axes, where the plane of the same zone of the other side is: cloth nearer to there is the other limb's.
+std::optional<Vec2> otherSide(const std::vector<GirthPlane>& planes, const GirthPlane& mine) {
+  const std::string left = "_left", right = "_right";
+  std::string other = mine.zone;
+  if (other.ends_with(left))
+    other.replace(other.size() - left.size(), left.size(), right);
+  else if (other.ends_with(right))
+    other.replace(other.size() - right.size(), right.size(), left);
+  else
+    return std::nullopt;
+  for (const GirthPlane& p : planes)
+    if (p.zone == other) {
+      const Vec3 away = p.origin - mine.origin;
+      return Vec2{dot(away, mine.e1), dot(away, mine.e2)};
+    }
+  return std::nullopt;
+}
+
 /// Length of the pieces of cloth around a section [m]; 0 where they do not go around it.
-double lengthAround(const std::vector<std::array<Vec2, 2>>& pieces, const Vec2& middle, double radius) {
+double lengthAround(const std::vector<std::array<Vec2, 2>>& pieces, const Vec2& middle, double radius,
+                    const std::optional<Vec2>& other) {
   std::array<bool, kSectors> seen{};
   double length = 0;
   for (const auto& [a, b] : pieces) {
     const Vec2 m{0.5 * (a.x + b.x) - middle.x, 0.5 * (a.y + b.y) - middle.y};
     if (std::hypot(m.x, m.y) > kReach * radius) continue;
+    if (other) {
+      const double x = m.x + middle.x, y = m.y + middle.y;
+      if (std::hypot(x - other->x, y - other->y) < std::hypot(x, y)) continue;
+    }
     length += std::hypot(b.x - a.x, b.y - a.y);
     const double turn = (std::atan2(m.y, m.x) + std::numbers::pi) / (2 * std::numbers::pi);
     seen[static_cast<std::size_t>(std::clamp(static_cast<int>(turn * kSectors), 0, kSectors - 1))] = true;
@@ -54,7 +79,9 @@ void measureGirths(const Scenario& s, const RecordingReader& recording, Measured
               s.model->cloth->patches()[static_cast<std::size_t>(surface.triangle_patch[t])].garment)]
         .push_back(surface.triangles[t]);
   const std::size_t links = s.human->skeleton.links.size();
-  for (const GirthPlane& plane : girthPlanes(*s.human, std::span(poses).first(links))) {
+  const std::vector<GirthPlane> planes = girthPlanes(*s.human, std::span(poses).first(links));
+  for (const GirthPlane& plane : planes) {
+    const std::optional<Vec2> other = otherSide(planes, plane);
     const std::vector<Vec2> section = bodySection(*s.human, plane, std::span(poses).first(links), skin);
     const double body = tapeGirth(section);
     if (!(body > 0)) continue;
@@ -67,7 +94,7 @@ void measureGirths(const Scenario& s, const RecordingReader& recording, Measured
     const double radius = 0.5 * std::max(high.x - low.x, high.y - low.y);
     GirthMeasure girth{plane.zone, body, {}};
     for (std::size_t g = 0; g < cloth.size(); ++g)
-      if (const double length = lengthAround(cutPieces(plane, x, cloth[g]), middle, radius); length > 0)
+      if (const double length = lengthAround(cutPieces(plane, x, cloth[g]), middle, radius, other); length > 0)
         girth.worn.push_back({s.definition.garments[g].name, length});
     out.girths.push_back(std::move(girth));
   }

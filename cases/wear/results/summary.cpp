@@ -405,6 +405,13 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
       worn.push_back({{"garment", w.garment}, {"length_m", w.length_m}, {"ease_m", w.length_m - g.body_m}});
     j["girths"].push_back({{"zone", g.zone}, {"body_m", g.body_m}, {"worn", worn}});
   }
+  if (s.definition.human && s.definition.human->measures) {
+    MeasuresReport report;
+    makeManikin(*s.definition.human->measures, &report);
+    j["manikin_girths"] = Json::array();
+    for (const MadeGirth& g : report.girths)
+      j["manikin_girths"].push_back({{"girth", g.name}, {"asked_m", g.asked_m}, {"made_m", g.made_m}});
+  }
   j["audit"] = auditJson(s.definition, m);
   if (m.recorded) j["recording"] = recordedJson(*m.recorded);
   Json phases = Json::object();

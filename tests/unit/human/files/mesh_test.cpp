@@ -215,5 +215,17 @@ TEST(Mesh, AnEnormousAccessorIsRefused) {
   expectRefused([](const auto& f) { loadMesh(f); }, folder.write("a.gltf", huge), 0, "");
 }
 
+TEST(Mesh, AnObjThatNamesAVertexThatIsNotThereSaysItsLine) {
+  const Folder folder;
+  expectRefused([](const auto& f) { loadMesh(f); },
+                folder.write("out.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n"), 5,
+                "names vertex '4' of the 3 before it");
+}
+
+TEST(Mesh, AnObjWithoutASurfaceIsToldInWords) {
+  const Folder folder;
+  expectRefused([](const auto& f) { loadMesh(f); }, folder.write("points.obj", "v 0 0 0\nv 1 0 0\n"), 0, "no surface");
+}
+
 }  // namespace
 }  // namespace gambeson

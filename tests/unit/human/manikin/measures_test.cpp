@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "human/manikin/manikin.hpp"
+#include "human/manikin/regressions.hpp"
 
 namespace gambeson {
 namespace {
@@ -97,6 +98,15 @@ TEST(Measures, BeyondThePeopleMeasuredANoteTells) {
   makeManikin(m, &report);
   ASSERT_EQ(report.notes.size(), 1u);
   EXPECT_NE(report.notes[0].find("extrapolated"), std::string::npos);
+}
+
+TEST(Regressions, MeansOfBothSexesScaleWithAStatuette) {
+  const double man = regressionsFor(Sex::male, 1.70, 75).m("crotchheight"),
+               woman = regressionsFor(Sex::female, 1.70, 75).m("crotchheight");
+  EXPECT_NEAR(meanMeasure("crotchheight", 1.70, 75), 0.5 * (man + woman), 1e-12);
+  // Half as tall and of the same build as somebody of 1.4825 m, whom the data have: the shares of a stature stay.
+  const double tall = meanMeasure("crotchheight", 1.4825, 50);
+  EXPECT_NEAR(meanMeasure("crotchheight", 1.4825 / 2, 50.0 / 8), tall / 2, 0.02 * tall);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "human/body/section.hpp"
 #include "human/character/character.hpp"
+#include "human/scan/joints.hpp"
 #include "human/scan/loops.hpp"
 #include "human/scan/repair.hpp"
 #include "tools/data_folder.hpp"
@@ -52,6 +53,11 @@ void expectJoints(const test::ScanBody& b, double within_m) {
 TEST(Scan, JointsOfAnAPoseAreWithinTwoCentimetres) { expectJoints(aPose(), 0.02); }
 TEST(Scan, JointsOfATPoseAreWithinTwoCentimetres) { expectJoints(test::scanBody("male_p50", 85), 0.02); }
 TEST(Scan, JointsOfASmallWomanAreWithinTwoCentimetres) { expectJoints(test::scanBody("female_p5", 40), 0.02); }
+// Her thighs touch, so that the crotch of her skin lies low: by shares of the stature above it her knee and her lumbar
+// joint are 2.7 cm off.
+TEST(Scan, JointsOfALargeWomanWhoseThighsTouchAreWithinTwoCentimetres) {
+  expectJoints(test::scanBody("female_p95", 45), 0.02);
+}
 
 TEST(Scan, StandsAgainAsItWasScanned) {
   const Human h = made(aPose().mesh);
@@ -267,6 +273,50 @@ TEST(ScanMalformed, AHandAtTheHipNamesTheArm) {
   refuses(odd, "arm_left", "hand at the hip");
 }
 
+TEST(ScanMalformed, ALeaningBodySaysByHowMuch) {
+  const double c = std::cos(0.45), s = std::sin(0.45);
+  refuses(changed(aPose().mesh,
+                  [&](const Vec3& x) {
+                    return Vec3{x.x, c * x.y - s * x.z, s * x.y + c * x.z};
+                  }),
+          "up", "leans by");
+}
+
+TEST(ScanMalformed, ASpikeSaysHowFarItReaches) {
+  TriangleMesh odd = aPose().mesh;
+  odd.vertices[odd.vertices.size() / 2].x += 5000;
+  refuses(odd, "shape", "a spike");
+}
+
+TEST(ScanMalformed, ABodyCutOffAboveItsFeetNamesThem) {
+  refuses(without(aPose().mesh, [](const Vec3& x) { return x.y < 110; }), "feet", "cut off above its feet");
+}
+
+TEST(ScanMalformed, ALimbOfALengthThatNobodyHasNamesIt) {
+  Landmarks marks;
+  marks.stature_m = 1.75;
+  std::map<std::string, Vec3> joints;
+  for (const char* side : {"_right", "_left"}) {
+    const std::size_t s = side[1] == 'l';
+    double z = 0;
+    for (const auto& [link, length] : {std::pair{"thigh", 0.41}, {"shank", 0.42}, {"foot", 0.0}})
+      joints[std::string(link) + side] = {0, 0, z}, z -= length;
+    z = 0;
+    for (const auto& [link, length] : {std::pair{"upper_arm", 0.29}, {"forearm", 0.27}, {"hand", 0.19}})
+      joints[std::string(link) + side] = {0, 0, z}, z -= length;
+    marks.hand_tip[s] = {0, 0, z};
+  }
+  EXPECT_NO_THROW(checkLengths(joints, marks, "scan.ply"));
+  joints["hand_left"].z += 0.12;
+  try {
+    checkLengths(joints, marks, "scan.ply");
+    ADD_FAILURE();
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.where().key, "arm_left");
+    EXPECT_NE(e.reason().find("left forearm"), std::string::npos) << e.reason();
+  }
+}
+
 /// The mean body of GarmentCode, in A-pose: girths that its authors published, and those of the skin as it stands.
 TEST(RealScans, GarmentCodesMeanBodyHasItsPublishedGirths) {
   const auto file = test::dataFolder() / "real" / "body" / "garmentcode_mean_all.obj";
@@ -278,18 +328,23 @@ TEST(RealScans, GarmentCodesMeanBodyHasItsPublishedGirths) {
   EXPECT_EQ(report.pose, 'A');
   EXPECT_NEAR(report.height_m, 1.7199, 1e-4);
   EXPECT_TRUE(meshTopology(h.skin->rest).closed);
+  int compared = 0;
   EXPECT_NEAR(report.arms_deg, 45.5, 4);  // arm_pose_angle of garmentcode_body_mean_all.yaml
   for (const ScanGirth& g : report.girths) {
-    // hips, bust and leg_circ of the same file.
-    const double published = g.name == "hip"          ? 1.03478
-                             : g.name == "chest"      ? 0.998407
-                             : g.name == "thigh_left" ? 0.602039
-                                                      : 0;
+    // hips, waist, bust and leg_circ of the same file.
+    const double published = g.name == "hip" || g.name == "widest hip" ? 1.03478
+                             : g.name == "narrowest waist"             ? 0.843338
+                             : g.name == "chest"                       ? 0.998407
+                             : g.name.starts_with("top of thigh")      ? 0.602039
+                                                                       : 0;
     if (published > 0) {
-      EXPECT_NEAR(g.scan_m, published, 0.015 * published) << g.name;
+      ++compared;
+      EXPECT_NEAR(g.scan_m, published, 0.01 * published) << g.name;
     }
-    EXPECT_NEAR(g.standing_m, g.scan_m, 0.012 * g.scan_m) << g.name;
+    // The legs come together by 5 degrees: what their tops bulge by is the most that changes.
+    EXPECT_NEAR(g.standing_m, g.scan_m, (g.name == "widest hip" ? 0.013 : 0.01) * g.scan_m) << g.name;
   }
+  EXPECT_EQ(compared, 6);
 }
 
 /// MakeHuman's base mesh without its rig, against the rig. Its hips lie 11 cm from the median plane
