@@ -2,6 +2,8 @@
 
 #include "cases/pattern/pattern_fields.hpp"
 
+#include <numbers>
+
 #include "cases/input/message.hpp"
 #include "cases/input/table.hpp"
 #include "cases/pattern/pattern_file.hpp"
@@ -219,12 +221,33 @@ Object seamTable() {
       .choice("use", &S::use,
               std::vector<std::pair<std::string, SeamUse>>{
                   {"sewn", SeamUse::sewn}, {"dart", SeamUse::dart}, {"opening", SeamUse::opening}},
-              "dart: of one panel; opening: a case may open it (zip, buttons, lacing)")
+              "dart: of one panel; opening: it may be open (zip, buttons, lacing)")
       .unwritten();
-  table.number("stiffness", &S::stiffness_N, "N", between(0, 1e3), "rotational spring along it [N m/(m rad)]")
+  table.flag("open", &S::open, "of an opening: it is worn open, and nothing holds it but its buttons").unwritten();
+  table
+      .integer("buttons", &S::buttons, 0, 100,
+               "that hold an open seam, each 1 cm of it (a cell, where that is longer): evenly spaced, the first and "
+               "the last half a space from its ends")
+      .unwritten();
+  table
+      .number("stiffness", &S::stiffness_N, "N", between(0, 1e3),
+              "rotational spring along it [N m/(m rad)]: pressed open, topstitched")
+      .unwritten();
+  table
+      .number("rest_angle", &S::rest_angle_rad, "rad", between(-std::numbers::pi, std::numbers::pi),
+              "of that spring; 0: both sides side by side in one plane")
       .unwritten();
   table.flag("proposed", &S::proposed, "guessed from lengths and notches; take this away where it is right")
       .unwritten();
+  table.check([](const Entry& p, const S& s) {
+    if (s.open && s.use != SeamUse::opening)
+      p.failAt("open", "is of a seam that can be opened; allowed: with \"use\": \"opening\"");
+    if (s.buttons > 0 && !s.open) p.failAt("buttons", "hold a seam that is open; allowed: with \"open\": true");
+    if (s.open && s.stiffness_N > 0)
+      p.failAt("stiffness", "is of a seam that is sewn; allowed: 0, or without \"open\"");
+    if (s.rest_angle_rad != 0 && !(s.stiffness_N > 0))
+      p.failAt("rest_angle", "is of a spring; allowed: with a stiffness above 0");
+  });
   return table.build();
 }
 

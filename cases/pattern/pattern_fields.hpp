@@ -14,6 +14,9 @@ struct SeamInput {
   SeamUse use = SeamUse::sewn;
   double stiffness_N = 0;
   bool proposed = false;
+  bool open = false;
+  int buttons = 0;
+  double rest_angle_rad = 0;
 };
 
 /// The pattern's seams are empty: `seams` has them.

@@ -122,7 +122,7 @@ FlatPattern readPattern(const JsonNode& root, const std::string& file) {
     const schema::SeamInput& s = in.seams[k];
     const schema::Entry seam = entry.member(*seams).item(k);
     pattern.seams.push_back({s.name, readSide(seam, "a", s.a, pattern.panels), readSide(seam, "b", s.b, pattern.panels),
-                             s.use, s.stiffness_N, s.proposed});
+                             s.use, s.stiffness_N, s.proposed, s.open, s.buttons, s.rest_angle_rad});
   }
   try {
     checkPattern(pattern);
@@ -140,7 +140,7 @@ JsonNode patternNode(const FlatPattern& pattern) {
   schema::PatternInput in;
   in.pattern = pattern;
   for (const PanelSeam& s : pattern.seams) {
-    schema::SeamInput seam{s.name, {}, {}, s.use, s.stiffness_N, s.proposed};
+    schema::SeamInput seam{s.name, {}, {}, s.use, s.stiffness_N, s.proposed, s.open, s.buttons, s.rest_angle_rad};
     for (const SeamPart& p : s.a) seam.a.push_back(partText(pattern, p));
     for (const SeamPart& p : s.b) seam.b.push_back(partText(pattern, p));
     in.seams.push_back(std::move(seam));

@@ -176,15 +176,24 @@ void auditHeldMotion(const Model& m, const StepEnds& e, StepReport& report, Step
   }
 }
 
-/// What seams give in a step beside their forces: where they close, and under contact.
-void auditSewing(const Model& m, const State& in, double dt, StepReport& report, StepWork& w) {
+/// What seams give in a step: where they close, and under contact. While they close, their force does work (that at the
+/// end stands for the step), and so does what they give under contact.
+void auditSewing(const Model& m, const StepEnds& e, double dt, StepReport& report, StepWork& w) {
+  constexpr double kCloses_m_per_s = 1e-4;
+  const State &in = e.in, &out = e.out;
   report.work.supports += sewingWork(m, dt, in.a, w);
+  for (const int i : m.sewing.points()) report.work.supports += dot(w.sewn_force[i], out.p[i] - in.p[i]);
+  const bool closes = std::any_of(w.sewn_rates.begin(), w.sewn_rates.end(),
+                                  [](const Vec3& rate) { return norm(rate) > kCloses_m_per_s; });
   w.sewn_impulse = w.sewn_closing;
   for (const Vec3& impulse : w.sewn_impulse) report.momentum.scale += norm(impulse);
-  if (!w.rows.empty() && !m.held_points.empty() && !seamsAreOpen(m, w)) {
+  if (!w.rows.empty() && (closes || !m.held_points.empty()) && !seamsAreOpen(m, w)) {
     std::vector<Vec3> impulses(static_cast<std::size_t>(m.freeCount()));
     contactImpulses(m, w, impulses);
     addSeamsUnderContact(m, impulses, w);
+    if (closes)
+      for (const int i : m.sewing.points())
+        report.work.supports += dot(w.sewn_impulse[i] - w.sewn_closing[i], out.p[i] - in.p[i]) / dt;
   }
   if (m.supports) return;  // auditSupports has them
   for (std::size_t k = 0; k < m.held_points.size(); ++k) {
@@ -204,7 +213,7 @@ void auditStep(const Model& m, const StepEnds& e, StepReport& report, StepWork& 
   w.held_impulses.assign(m.held_points.size(), Vec3{});
   for (std::size_t k = 0; k < w.held_impulses.size(); ++k) w.held_impulses[k] = half * (in.held_N[k] + out.held_N[k]);
   contactLedger(m, in, dt, in.a, report, w);
-  if (!m.sewing.empty()) auditSewing(m, in, dt, report, w);
+  if (!m.sewing.empty()) auditSewing(m, e, dt, report, w);
   if (m.supports) auditSupports(m, e, report, w);
   if (m.strain_limit.mode != LimitMode::none && m.supports) {
     for (int i = 0; i < n; ++i)

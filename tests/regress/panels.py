@@ -4,9 +4,10 @@
     panels.py GAMBESON
 
 One that fits closes, crosses nothing and passes all checks of its run; one that is too narrow is worn too, and said to be
-short, by what the ball is wider; seams that have no time to close end the run by name; what is wrong in a pattern is said
-with file, panel and seam. Panels with armholes and necklines, whose corners trimming leaves slivers of, start below the
-shoulders that they close over, hang and cross nothing.
+short, by what the ball is wider; one with a dart and one whose side is open but for two buttons are worn as well; seams
+that have no time to close end the run by name; what is wrong in a pattern is said with file, panel and seam. Panels with
+armholes and necklines, whose corners trimming leaves slivers of, start below the shoulders that they close over, hang
+and cross nothing.
 """
 
 import json
@@ -104,6 +105,40 @@ def main():
         failed = [c for c in numbers["audit"] if not c["holds"]]
         check(not failed, f"checks of the vest: {failed}")
         check(numbers["collisions"]["most_intersections"] == 0, f"the vest crosses: {numbers['collisions']}")
+
+        # A dart at the top of the front: a wedge of 2 cm on 5 cm, cut on through its tip.
+        darted = pattern(0.53 * girth)
+        half, wedge = 0.265 * girth, 0.01
+        darted["panels"][0]["outline"] = [
+            {"start": [x, y]} for x, y in ((-half, 0), (half, 0), (half, 0.12), (wedge, 0.12), (0, 0.07), (-wedge, 0.12),
+                                           (-half, 0.12))]
+        darted["seams"] = [{"name": "left", "a": ["front.1"], "b": ["back.3 reversed"]},
+                           {"name": "right", "a": ["back.1"], "b": ["front.6 reversed"]},
+                           {"name": "dart", "a": ["front.3"], "b": ["front.4 reversed"], "use": "dart"}]
+        done, place = worn(folder, "dart", darted)
+        check(done.returncode == 0, f"the tube with a dart gave {done.returncode}: {done.stderr}")
+        numbers = summary(place / "out")
+        failed = [c for c in numbers["audit"] if not c["holds"]]
+        check(not failed, f"checks of the tube with a dart: {failed}")
+        check(numbers["collisions"]["most_intersections"] == 0, f"the dart crosses: {numbers['collisions']}")
+
+        # A side that is worn open and buttoned twice.
+        opened = pattern(0.53 * girth)
+        opened["seams"][0] |= {"use": "opening", "open": True, "buttons": 2}
+        opened["seams"][1]["stiffness"] = 0.001
+        done, place = worn(folder, "open", opened)
+        check(done.returncode == 0, f"the tube that is buttoned gave {done.returncode}: {done.stderr}")
+        numbers = summary(place / "out")
+        failed = [c for c in numbers["audit"] if not c["holds"]]
+        check(not failed, f"checks of the tube that is buttoned: {failed}")
+        check(numbers["collisions"]["most_intersections"] == 0, f"the buttoned side crosses: {numbers['collisions']}")
+        for wrong_seam, said in (({"open": True}, "can be opened"), ({"use": "opening", "buttons": 2}, "is open"),
+                                 ({"rest_angle": 1}, "of a spring")):
+            wrong = pattern(0.53 * girth)
+            wrong["seams"][0] |= wrong_seam
+            done, place = worn(folder, f"wrong_{len(said)}", wrong)
+            check(done.returncode == 2 and "tube.json" in done.stderr and said in done.stderr,
+                  f"{wrong_seam}: {done.returncode}, {done.stderr}")
 
         hasty = json.loads(json.dumps(CASE))
         hasty["garment"]["pattern"]["close_within"] = "50 ms"

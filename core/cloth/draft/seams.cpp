@@ -9,6 +9,7 @@
 #include <set>
 
 #include "core/cloth/draft/part_seam.hpp"
+#include "core/cloth/draft/shared_points.hpp"
 #include "core/cloth/draft/trim_map.hpp"
 #include "core/error.hpp"
 #include "core/math/quadrature.hpp"
@@ -106,6 +107,8 @@ FreeMap buildFreeMap(const Garment& garment) {
 
   // Joined edges are one point.
   UnionFind joined(n);
+  const std::vector<int> owners = sharedOwners(garment);
+  for (int i = 0; i < n; ++i) joined.join(i, owners[i]);
   for (int s = 0; s < static_cast<int>(garment.seams.size()); ++s) {
     checkMatch(garment, s);
     if (garment.seams[s].onPart()) continue;

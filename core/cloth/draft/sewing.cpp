@@ -7,6 +7,7 @@
 
 #include "core/cloth/draft/cells.hpp"
 #include "core/cloth/draft/sewn_length.hpp"
+#include "core/cloth/draft/shared_points.hpp"
 #include "core/error.hpp"
 #include "core/math/quadrature.hpp"
 
@@ -18,6 +19,8 @@ constexpr double kMostGather = 2;
 /// than about three quarters of a cell from each other, at the tip of a dart. To hold such points together would fold
 /// the cloth beside them.
 constexpr double kLeastApart = 0.5;
+/// The same of two patches that share all control points there: nothing but rounding is left of the row.
+constexpr double kShared = 1e-20;
 constexpr int kPieces = 2;  ///< of a hat's flank, for the quadrature
 constexpr int kPoints = 4;  ///< of the quadrature in each
 
@@ -63,11 +66,19 @@ void alongSeam(int flanks, Visit&& visit) {
 
 using Row = std::map<int, double>;
 
-void addBasis(const Garment& g, const std::vector<int>& offsets, const SewnPoint& at, double factor, Row& row) {
+/// The list of all control points; of those that patches share it knows one.
+struct Columns {
+  std::vector<int> offsets, owners;
+  explicit Columns(const Garment& g) : offsets(controlOffsets(g)), owners(sharedOwners(g)) {}
+  int of(int patch, int control) const {
+    return owners[static_cast<std::size_t>(offsets[static_cast<std::size_t>(patch)] + control)];
+  }
+};
+
+void addBasis(const Garment& g, const Columns& columns, const SewnPoint& at, double factor, Row& row) {
   const SurfaceBasis basis = surfaceBasis(g.patches[static_cast<std::size_t>(at.patch)], at.uv.x, at.uv.y);
   for (std::size_t k = 0; k < basis.columns.size(); ++k)
-    if (basis.values[0][k] != 0)
-      row[offsets[static_cast<std::size_t>(at.patch)] + basis.columns[k]] += factor * basis.values[0][k];
+    if (basis.values[0][k] != 0) row[columns.of(at.patch, basis.columns[k])] += factor * basis.values[0][k];
 }
 
 void addRow(const Row& row, double factor, SparseRows& rows) {
@@ -134,20 +145,22 @@ class Sides {
   std::vector<double> corners_, side_;
 };
 
-void addSeam(const Garment& g, std::size_t index, const std::vector<int>& offsets, SewnRows& out) {
+void addSeam(const Garment& g, std::size_t index, const Columns& columns, SewnRows& out) {
   const Measured m(g, index);
   Sides(g, m.a, index, m.flanks), Sides(g, m.b, index, m.flanks);  // or a message
   const double length = 0.5 * (m.a.length_m() + m.b.length_m());
   std::vector<Row> rows(static_cast<std::size_t>(m.flanks + 1)), of_a(rows.size()), of_b(rows.size());
   std::vector<double> weight(rows.size(), 0.0);
+  std::vector<char> one_patch(rows.size(), 0);  // on both sides, somewhere under the hat
   alongSeam(m.flanks, [&](double s, double w, int flank, double at) {
     const SewnPoint a = m.a.at(s), b = m.b.at(s);
     Row pair;
-    addBasis(g, offsets, a, 1, pair);
-    addBasis(g, offsets, b, -1, pair);
+    addBasis(g, columns, a, 1, pair);
+    addBasis(g, columns, b, -1, pair);
     for (const int end : {0, 1}) {
-      addBasis(g, offsets, a, w * (end == 0 ? 1 - at : at), of_a[static_cast<std::size_t>(flank + end)]);
-      addBasis(g, offsets, b, w * (end == 0 ? 1 - at : at), of_b[static_cast<std::size_t>(flank + end)]);
+      addBasis(g, columns, a, w * (end == 0 ? 1 - at : at), of_a[static_cast<std::size_t>(flank + end)]);
+      addBasis(g, columns, b, w * (end == 0 ? 1 - at : at), of_b[static_cast<std::size_t>(flank + end)]);
+      if (a.patch == b.patch) one_patch[static_cast<std::size_t>(flank + end)] = 1;
     }
     addRow(pair, 1, out.pairs);
     out.cell_m.push_back(1 / std::max(a.cells_per_m, b.cells_per_m));
@@ -163,20 +176,25 @@ void addSeam(const Garment& g, std::size_t index, const std::vector<int>& offset
     return sum;
   };
   const int before = out.rows();
+  bool blunt = false;
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    if (square(rows[k]) < kLeastApart * (square(of_a[k]) + square(of_b[k]))) continue;
+    const double least = one_patch[k] ? kLeastApart : kShared;
+    if (square(rows[k]) < least * (square(of_a[k]) + square(of_b[k]))) {
+      blunt = blunt || one_patch[k];
+      continue;
+    }
     addRow(rows[k], 1 / weight[k], out.C);
     out.length_m.push_back(weight[k] * length);
     out.hat_m.push_back(length / m.flanks);
     out.seam.push_back(static_cast<int>(index));
   }
-  if (out.rows() == before)
+  if (out.rows() == before && blunt)
     throw InputError({"", 0, keyOf(index)},
                      "its edges are everywhere closer to each other than a cell of the panel; allowed: a finer panel" +
                          nameOf(g.sewn_seams[index]));
 }
 
-void addHinges(const Garment& g, std::size_t index, const std::vector<int>& offsets, std::vector<HingePoint>& out) {
+void addHinges(const Garment& g, std::size_t index, const Columns& columns, std::vector<HingePoint>& out) {
   const SewnSeam& seam = g.sewn_seams[index];
   const Measured m(g, index);
   const Sides side_a(g, m.a, index, m.flanks), side_b(g, m.b, index, m.flanks);
@@ -194,7 +212,7 @@ void addHinges(const Garment& g, std::size_t index, const std::vector<int>& offs
         const double part = 0.5 * edge.length_m() / length;
         const SurfaceBasis basis = surfaceBasis(g.patches[static_cast<std::size_t>(at.patch)], at.uv.x, at.uv.y);
         for (std::size_t k = 0; k < basis.columns.size(); ++k) {
-          std::array<double, 3>& r = row[offsets[static_cast<std::size_t>(at.patch)] + basis.columns[k]];
+          std::array<double, 3>& r = row[columns.of(at.patch, basis.columns[k])];
           const double du = basis.values[1][k], dv = basis.values[2][k];
           r[0] += part * (at.along.x * du + at.along.y * dv);
           r[1 + static_cast<std::size_t>(which)] += into.x * du + into.y * dv;
@@ -241,20 +259,20 @@ double lengthOf(const Garment& garment, const SewnEdge& edge) {
 }
 
 SewnRows buildSewnRows(const Garment& garment, SeamHold hold) {
-  const std::vector<int> offsets = controlOffsets(garment);
+  const Columns columns(garment);
   SewnRows out;
-  out.C.column_count = out.pairs.column_count = offsets.back();
+  out.C.column_count = out.pairs.column_count = columns.offsets.back();
   for (std::size_t i = 0; i < garment.sewn_seams.size(); ++i)
-    if (garment.sewn_seams[i].hold == hold) addSeam(garment, i, offsets, out);
+    if (garment.sewn_seams[i].hold == hold) addSeam(garment, i, columns, out);
   return out;
 }
 
 std::vector<HingePoint> buildSewnHinges(const Garment& garment) {
-  const std::vector<int> offsets = controlOffsets(garment);
+  const Columns columns(garment);
   std::vector<HingePoint> out;
   for (std::size_t i = 0; i < garment.sewn_seams.size(); ++i)
     if (garment.sewn_seams[i].hold != SeamHold::open && garment.sewn_seams[i].stiffness_N != 0)
-      addHinges(garment, i, offsets, out);
+      addHinges(garment, i, columns, out);
   return out;
 }
 

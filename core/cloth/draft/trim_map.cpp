@@ -9,6 +9,7 @@
 #include "core/cloth/draft/areas.hpp"
 #include "core/cloth/draft/part_seam.hpp"
 #include "core/cloth/draft/seams.hpp"
+#include "core/cloth/draft/shared_points.hpp"
 #include "core/error.hpp"
 #include "core/nurbs/trim_arcs.hpp"
 
@@ -189,7 +190,13 @@ std::map<int, TrimFollower> trimFollowers(const Garment& garment) {
   const std::vector<int> offsets = controlOffsets(garment);
   Garment whole = garment;
   whole.trims.clear();
-  const std::vector<double> kept = controlAreas(garment), all = controlAreas(whole);
+  std::vector<double> kept = controlAreas(garment);
+  const std::vector<double> all = controlAreas(whole);
+  // A point that several patches share has what all of them keep.
+  const std::vector<int> owners = sharedOwners(garment);
+  for (std::size_t c = 0; c < kept.size(); ++c)
+    if (owners[c] != static_cast<int>(c)) kept[owners[c]] += kept[c];
+  for (std::size_t c = 0; c < kept.size(); ++c) kept[c] = kept[owners[c]];
   std::vector<char> used(kept.size(), 1);
   for (std::size_t p = 0; p < garment.patches.size(); ++p)
     if (!garment.trims[p].loops.empty())

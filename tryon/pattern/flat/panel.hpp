@@ -107,8 +107,8 @@ struct SeamPart {
   double from = 0, to = 1;
 };
 
-/// sewn: two sides become one. dart: both sides are of one panel and meet at the dart's tip. opening: sewn, unless a
-/// case opens it (zip, buttons, lacing).
+/// sewn: two sides become one. dart: both sides are of one panel and meet at the dart's tip. opening: sewn, unless it
+/// is worn open (zip, buttons, lacing).
 enum class SeamUse { sewn, dart, opening };
 /// Points at equal fractions of the length of both sides come together. A side is one part of an edge or several, one
 /// after the other. Sides of unequal length are eased or gathered.
@@ -116,8 +116,11 @@ struct PanelSeam {
   std::string name;
   std::vector<SeamPart> a, b;
   SeamUse use = SeamUse::sewn;
-  double stiffness_N = 0;  ///< rotational spring along it [N m/(m rad)]: pressed open, topstitched; 0: free
-  bool proposed = false;   ///< guessed from lengths and notches, not said by anybody
+  double stiffness_N = 0;     ///< rotational spring along it [N m/(m rad)]: pressed open, topstitched; 0: free
+  bool proposed = false;      ///< guessed from lengths and notches, not said by anybody
+  bool open = false;          ///< of an opening: nothing holds it but its buttons
+  int buttons = 0;            ///< of an open seam: evenly spaced, the first and the last half of that from its ends
+  double rest_angle_rad = 0;  ///< of the spring
 };
 
 /// Where a pattern comes from.

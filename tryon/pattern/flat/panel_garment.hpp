@@ -12,10 +12,13 @@ struct PanelCells {
   int degree = 2;
 };
 
-/// Patch k is panel k: parameters (u, v) in m along weft and warp, u x v towards the right side; its rectangle is as
-/// large as the panel, whose outline and cutouts trim it. Seam k is seam k; openings are sewn. Takes patterns that
-/// checkPattern lets pass. Throws InputError (key "panels[i]" or "seams[i]", names in the reason) where a panel has no
-/// placement or is cut more than once, or where the sides of a seam are too unequal or no border. Without a fabric.
+/// A patch for each panel, by its name: parameters (u, v) in m along weft and warp, u x v towards the right side; its
+/// rectangle is as large as the panel, whose outline and cutouts trim it. A panel in which both sides of a seam meet (a
+/// dart) is cut on through their tip (panel_pieces.hpp): its pieces are patches one after the other, "front",
+/// "front 2". Seam k is seam k; after them come buttons of open ones, and cuts. Openings are sewn unless they are said
+/// to be open. Takes patterns that checkPattern lets pass. Throws InputError (key "panels[i]" or "seams[i]", names in
+/// the reason) where a panel has no placement, is cut more than once or cannot be cut on through a tip, or where the
+/// sides of a seam are too unequal or no border. Without a fabric.
 Garment panelGarment(const FlatPattern& pattern, const PanelCells& cells);
 
 /// "front.1 + yoke.0", as seams name their sides.
