@@ -201,8 +201,8 @@ void putOnAtStart(const Case& c, const Only& only, Scenario& s) {
              s.human) {
     const Case& whole = only.of ? *only.of : c;
     s.stage->dressed = dressingPosture(whole, *s.human);  // which the garments are drafted for
-    // One by one they are put on in one posture: it is left when all are worn.
-    if (only.of && armsAside(whole)) s.stage->settle_start_s = -kAtOnce_s;
+    // Panels close around one posture: it is left when all garments are worn.
+    if (only.of && kindOf(c.garments[0]).sewn && armsAside(whole)) s.stage->settle_start_s = -kAtOnce_s;
   }
 }
 

@@ -58,18 +58,34 @@ std::vector<Vec2> samplesOf(const Panel& panel) {
 /// Distances from the body as it stands.
 class Body {
  public:
-  explicit Body(const StandingBody& form) : form_(form), query_(form.shapes()) {}
+  explicit Body(const StandingBody& form) : form_(form), query_(form.shapes()) {
+    for (std::size_t o = 0; o < form.shapes().size(); ++o) {
+      const Shape& shape = form.shapes()[o].shape;
+      double reach = 0;
+      if (const auto* e = std::get_if<Ellipsoid>(&shape))
+        reach = std::max({e->semi_axes.x, e->semi_axes.y, e->semi_axes.z});
+      else
+        for (const Vec3& v : std::get<TriangleMesh>(shape).vertices) reach = std::max(reach, norm(v));
+      reach_m_.push_back(form.placements()[o].scale * reach);
+    }
+  }
+  /// Of shapes that are nearer than kNear_m.
   PanelDepth depth(const Vec3& x) const {
     PanelDepth deepest;
-    for (std::size_t o = 0; o < form_.shapes().size(); ++o)
-      if (const double d = -query_.signedDistance(static_cast<int>(o), form_.placements()[o], x); d > deepest.depth_m)
+    for (std::size_t o = 0; o < form_.shapes().size(); ++o) {
+      const Placement& at = form_.placements()[o];
+      if (norm(x - at.origin) > reach_m_[o] + kNear_m) continue;
+      if (const double d = -query_.signedDistance(static_cast<int>(o), at, x); d > deepest.depth_m)
         deepest = {d, form_.shapes()[o].segment};
+    }
     return deepest;
   }
 
  private:
+  static constexpr double kNear_m = 0.01;
   const StandingBody& form_;
   ProximityQuery query_;
+  std::vector<double> reach_m_;  ///< of each shape from its origin
 };
 
 /// Panels that cover one face of trunk and legs, in the parts that hang together.

@@ -41,7 +41,8 @@ bool coversArms(const FlatPattern& pattern);
 /// through the body (which part, by how much); "human" where the body lacks links.
 PlacedPanels placePanels(const FlatPattern& pattern, const StandingBody& form);
 
-/// A point of a panel that lies deepest in the body, of samples 2 cm apart; depth_m < 0 outside.
+/// A point of a panel that lies deepest in the body, of samples 2 cm apart; depth_m < 0 outside, very low where no part
+/// of the body is near.
 struct PanelDepth {
   double depth_m = -1e300;
   std::string segment;

@@ -22,6 +22,7 @@ const std::string regions_case = R"json({
   "fabric": {"thickness": "0.5 mm", "surface_density": "200 gsm", "young": "1 MPa", "poisson": 0.2,
              "bending": {"law": "linear", "rigidity": "1e-5 N m"}},
   "human": {"manikin": "male_p50", "motion": {"stand": {"duration": "0.02 s"}}},
+  "contact": {"friction": 0.5},
   "dressing": {"layer_by_layer": true, "settle": "0.1 s"}
 })json";
 // clang-format on
@@ -41,16 +42,15 @@ int crossings(const Case& c) {
   return r.intersections + r.inside;
 }
 
+/// A jumpsuit has the panels of a shirt and of trousers.
 TEST(PlacedPanels, CrossNothingOnAnyManikin) {
-  for (const std::string& manikin : manikinNames())
-    for (const auto make : {skirt, shirt, trousers, jumpsuit}) {
-      const Folder folder;
-      Size size;
-      size.scale = manikin.starts_with("female") ? 0.92 : 1;
-      const FlatPattern pattern = make(size);
-      const Case c = readCase(written(folder, pattern), {"human.manikin=" + manikin});
-      EXPECT_EQ(crossings(c), 0) << manikin << " " << pattern.name;
-    }
+  for (const std::string& manikin : manikinNames()) {
+    const Folder folder;
+    Size size;
+    size.scale = manikin.starts_with("female") ? 0.92 : 1;
+    const Case c = readCase(written(folder, jumpsuit(size)), {"human.manikin=" + manikin});
+    EXPECT_EQ(crossings(c), 0) << manikin;
+  }
 }
 
 TEST(PlacedPanels, CrossNothingOnASkin) {
