@@ -74,6 +74,25 @@ TEST(PlacePanels, StandFreeOfEveryManikinAndFaceEachOther) {
   }
 }
 
+/// However wide they are, a plane stays free between what stands in front and what stands behind.
+TEST(PlacePanels, FrontAndBackNeverMeet) {
+  const Human human = makeManikin("female_p50");
+  const StandingBody form(human, standing(human));
+  for (const double hem : {0.2, 0.3, 0.45, 0.8}) {
+    Size s;
+    s.quarter_hem = hem;
+    const FlatPattern p = skirt(s);
+    const PlacedPanels placed = placePanels(p, form);
+    double front = 1e300, back = -1e300;
+    for (double y = 0; y <= 0.5; y += 0.05)
+      for (double x = -hem; x <= hem; x += 0.02) {
+        front = std::min(front, placed.bent[0]({x, y}).x);
+        back = std::max(back, placed.bent[1]({x, y}).x);
+      }
+    EXPECT_GT(front - back, 0.03) << hem;
+  }
+}
+
 /// Bent about one direction the sheets keep their lengths, and their right sides look away from the body.
 TEST(PlacePanels, AreBentWithoutStrainTheirRightSidesOut) {
   const Human human = makeManikin("female_p50");
