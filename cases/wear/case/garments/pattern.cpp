@@ -55,24 +55,26 @@ bool byRegions(const FlatPattern& pattern) {
          std::any_of(pattern.panels.begin(), pattern.panels.end(), [](const Panel& p) { return !p.placement; });
 }
 
-/// Throws where a panel has neither placement nor region.
+/// Throws where a panel has neither placement nor region, or no region where others are placed by theirs.
 void checkPlaces(const FlatPattern& pattern) {
   if (!byRegions(pattern)) return;
-  for (std::size_t k = 0; k < pattern.panels.size(); ++k) {
-    const Panel& panel = pattern.panels[k];
-    if (regionOf(panel)) continue;
-    std::string allowed;
-    for (const std::string& name : regionNames()) allowed += (allowed.empty() ? "" : ", ") + name;
-    const std::string near = schema::closest(panel.region, regionNames());
-    throw InputError(
-        {"", 0, fmt::format("panels[{}]", k)},
-        fmt::format("panel \"{}\" has no placement{}: nothing says where it stands around its wearer; allowed for "
-                    "\"region\": {}{}",
-                    panel.name,
-                    panel.region.empty() ? " and no region"
-                                         : fmt::format(", and its region \"{}\" is no place on the body", panel.region),
-                    allowed, near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
-  }
+  std::string allowed;
+  for (const std::string& name : regionNames()) allowed += (allowed.empty() ? "" : ", ") + name;
+  for (const bool placed : {false, true})
+    for (std::size_t k = 0; k < pattern.panels.size(); ++k) {
+      const Panel& panel = pattern.panels[k];
+      if (regionOf(panel) || panel.placement.has_value() != placed) continue;
+      const std::string near = schema::closest(panel.region, regionNames());
+      throw InputError({"", 0, fmt::format("panels[{}]", k)},
+                       fmt::format("panel \"{}\" has no {}{}: {}; allowed for \"region\": {}{}", panel.name,
+                                   placed ? "region" : "placement",
+                                   panel.region.empty()
+                                       ? (placed ? "" : " and no region")
+                                       : fmt::format(", and its region \"{}\" is no place on the body", panel.region),
+                                   placed ? "panels of this pattern are placed by their regions"
+                                          : "nothing says where it stands around its wearer",
+                                   allowed, near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+    }
 }
 
 FlatPattern patternOf(const GarmentCase& g) {
