@@ -22,6 +22,7 @@
 #include "core/io/own_file.hpp"
 #include "tryon/pattern/flat/panel_check.hpp"
 #include "tryon/pattern/flat/panel_geometry.hpp"
+#include "tryon/pattern/flat/regions.hpp"
 #include "tryon/pattern/garment_file.hpp"
 
 namespace gambeson {
@@ -57,7 +58,32 @@ void say(const std::vector<std::string>& notes, const std::vector<std::string>& 
   for (const std::string& what : dropped) out << "  " << shown(what) << "\n";
 }
 
-void say(const ImportedPattern& in, std::ostream& out) {
+/// Regions that names of panels tell, for panels that have none: "front: of panel \"Vorderteil\""; and which of those
+/// without placement still have none.
+std::vector<std::string> proposeRegions(FlatPattern& pattern) {
+  std::vector<std::string> said, open;
+  for (Panel& panel : pattern.panels) {
+    if (regionOf(panel.region)) continue;
+    if (const std::string word = proposedRegion(panel.name); !word.empty()) {
+      panel.region = word;
+      said.push_back(fmt::format("{}: \"{}\", by its name", panel.name, word));
+    } else if (!panel.placement) {
+      open.push_back(panel.name);
+    }
+  }
+  if (!open.empty()) {
+    std::string names, allowed;
+    for (const std::string& name : open) names += (names.empty() ? "" : ", ") + name;
+    for (const std::string& name : regionNames()) allowed += (allowed.empty() ? "" : ", ") + name;
+    said.push_back(
+        fmt::format("not told by the name: {}. Say \"region\" of each in the written file, or it cannot be "
+                    "worn; allowed: {}",
+                    names, allowed));
+  }
+  return said;
+}
+
+void say(const ImportedPattern& in, const std::vector<std::string>& regions, std::ostream& out) {
   const FlatPattern& p = in.pattern;
   double area = 0;
   std::size_t widest = 5;
@@ -93,6 +119,8 @@ void say(const ImportedPattern& in, std::ostream& out) {
   if (proposed)
     out << "\nSeams are proposed by length and notches: the format has none. Correct them in \"seams\" of the written "
            "file, and look again:\n  gambeson import GARMENT.json --svg PATTERN.svg\n";
+  if (!regions.empty()) out << "\nRegions of the body:\n";
+  for (const std::string& region : regions) out << "  " << shown(region) << "\n";
   std::vector<std::string> notes = in.notes;
   for (std::string& doubt : doubtsAbout(p)) notes.push_back(std::move(doubt));
   say(notes, in.dropped, out);
@@ -254,7 +282,8 @@ int importToFiles(const ImportArguments& a, std::ostream& out) {
   } else {
     in = importPattern(a.file, a.choices);
   }
-  say(in, out);
+  const std::vector<std::string> regions = proposeRegions(in.pattern);
+  say(in, regions, out);
   out << "\n";
   if (!a.output.empty()) {
     writeOwnFile(a.output, patternText(in.pattern));

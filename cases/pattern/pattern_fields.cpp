@@ -7,6 +7,7 @@
 #include "cases/input/message.hpp"
 #include "cases/input/table.hpp"
 #include "cases/pattern/pattern_file.hpp"
+#include "tryon/pattern/flat/regions.hpp"
 
 namespace gambeson::schema {
 namespace {
@@ -200,7 +201,11 @@ Object panelTable() {
   table.list("annotations", &P::annotations, annotationTable(), "what is written on the cloth");
   table.object("placement", &P::placement, placementTable(), "where it stands around its wearer before it is sewn")
       .defaultsTo("not said");
-  table.text("region", &P::region, "part of the body that it covers, in the words of its source");
+  std::string regions;
+  for (const std::string& name : regionNames()) regions += (regions.empty() ? "" : ", ") + name;
+  table.text("region", &P::region,
+             "part of the body that it covers, by which it is placed around a wearer where it has no placement: " +
+                 regions + " (left and right are the wearer's); another word is what its source calls it");
   table.text("material", &P::material, "what it is cut of, in the words of its source");
   table.text("size", &P::size, "in the words of its source");
   table.integer("quantity", &P::quantity, 1, 1000, "how often it is cut").unwritten();
@@ -271,6 +276,14 @@ Object makePatternTable() {
       .text(
           "name", [](auto& f) -> auto& { return f.pattern.name; }, "of the garment")
       .required();
+  table
+      .choice(
+          "placing", [](auto& f) -> auto& { return f.pattern.placing; },
+          std::vector<std::pair<std::string, PanelPlacing>>{{"given", PanelPlacing::given},
+                                                            {"regions", PanelPlacing::regions}},
+          "where panels start around a wearer: given: at their placements, or by their regions where some have no "
+          "placement; regions: by their regions, as on another body than they were placed for")
+      .unwritten();
   table.object(
       "source", [](auto& f) -> auto& { return f.pattern.source; }, sourceTable(), "where it comes from");
   table

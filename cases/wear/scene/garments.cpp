@@ -12,6 +12,9 @@
 #include "core/cloth/draft/areas.hpp"
 #include "core/cloth/draft/seams.hpp"
 #include "core/error.hpp"
+#include "human/files/units.hpp"
+#include "human/motion/standing.hpp"
+#include "tryon/pattern/flat/standing_body.hpp"
 
 namespace gambeson {
 namespace {
@@ -45,9 +48,22 @@ double layerOf(const Case& c, const GarmentCase& worn) {
   return c.contact.layer_m.value_or(largestThickness(fabricOf(c, worn), otherFabrics(worn), worn.fields));
 }
 
-/// `form` is null without a human.
-Garment makeGarment(const Case& c, const GarmentCase& worn, const BodyForm* form, std::span<const Worn> under) {
-  Garment garment = kindOf(worn).make({worn, fabricOf(c, worn), layerOf(c, worn), form, under});
+/// Of arms that are out of the way of panels: from the sides, as in an A-pose.
+constexpr double aside_rad = 40.0 * rad_per_deg;
+
+/// Who is dressed, and how he stands.
+struct Wearer {
+  const Human* human = nullptr;  ///< null without a surface
+  Posture posture;
+  std::optional<BodyForm> form;
+};
+
+GarmentMaking making(const Case& c, const GarmentCase& worn, const Wearer& w, std::span<const Worn> under) {
+  return {worn, fabricOf(c, worn), layerOf(c, worn), w.form ? &*w.form : nullptr, under, w.human, w.posture};
+}
+
+Garment makeGarment(const Case& c, const GarmentCase& worn, const Wearer& wearer, std::span<const Worn> under) {
+  Garment garment = kindOf(worn).make(making(c, worn, wearer, under));
   for (std::size_t p = garment.patch_names.size(); p < garment.patches.size(); ++p)
     garment.patch_names.push_back("patch_" + std::to_string(p));
   addFabric(c, worn, garment);
@@ -73,12 +89,12 @@ std::string wearerOf(const HumanCase& h) {
 }
 
 /// What cannot be drafted is said with what can.
-Garment tryGarment(const Case& c, const GarmentCase& worn, const BodyForm* form, std::span<const Worn> under) {
+Garment tryGarment(const Case& c, const GarmentCase& worn, const Wearer& wearer, std::span<const Worn> under) {
   try {
-    return makeGarment(c, worn, form, under);
+    return makeGarment(c, worn, wearer, under);
   } catch (const InputError& e) {
-    if (!form || !c.human || !kindOf(worn).drafted || !e.where().file.empty()) throw;
-    sayLargest(e, worn, wearerOf(*c.human), [&](const GarmentCase& g) { makeGarment(c, g, form, under); });
+    if (!wearer.form || !c.human || !kindOf(worn).drafted || !e.where().file.empty()) throw;
+    sayLargest(e, worn, wearerOf(*c.human), [&](const GarmentCase& g) { makeGarment(c, g, wearer, under); });
   }
 }
 
@@ -101,9 +117,26 @@ std::vector<std::optional<MeshDraft>> readMeshes(const Case& c, const std::vecto
   return meshes;
 }
 
-std::vector<Garment> draftGarments(const Case& c, const Human* human) {
-  std::optional<BodyForm> form;
-  if (human) form.emplace(*human);
+bool armsAside(const Case& c) {
+  if (!c.human || !(c.dressing.settle_s > 0 || !c.dressing.from.empty())) return false;
+  bool aside = false;
+  for (const GarmentCase& g : c.garments) {
+    const ArmsWanted wanted = kindOf(g).arms(g);
+    if (wanted == ArmsWanted::hanging) return false;
+    aside = aside || wanted == ArmsWanted::aside;
+  }
+  return aside;
+}
+
+Posture dressingPosture(const Case& c, const Human& human) {
+  const Posture posture = standing(human);
+  return armsAside(c) ? withArmsAside(human, posture, aside_rad) : posture;
+}
+
+std::vector<Garment> draftGarments(const Case& c, const Human* human, std::vector<std::string>* fit) {
+  Wearer wearer;
+  if (human) wearer.form.emplace(*human);
+  if (human && !human->shapes.empty()) wearer.human = human, wearer.posture = dressingPosture(c, *human);
   std::vector<Garment> garments;
   garments.reserve(c.garments.size());  // those above point to those below
   std::vector<Worn> under;
@@ -113,8 +146,11 @@ std::vector<Garment> draftGarments(const Case& c, const Human* human) {
     const std::string at = fmt::format("garments[{}]", k), shape = at + "." + kindOf(worn).word;
     underKey(worn.fabric ? at + ".fabric" : "fabric", [&] { checkFabric(fabricOf(c, worn), "fabric"); });
     ClothSize(size).add(kindOf(worn).cells(worn), worn.samples_per_cell, shape);
-    garments.push_back(underKey(shape, [&] { return tryGarment(c, worn, form ? &*form : nullptr, under); }));
+    garments.push_back(underKey(shape, [&] { return tryGarment(c, worn, wearer, under); }));
     size.add(cellsOf(garments.back()), worn.samples_per_cell, shape);
+    if (fit)
+      for (std::string& note : underKey(shape, [&] { return kindOf(worn).fit(making(c, worn, wearer, under)); }))
+        fit->push_back(std::move(note));
     if (kindOf(worn).isMesh()) continue;
     double area = 0;
     for (const double a : underKey(shape, [&] { return controlAreas(garments.back()); })) area += a;

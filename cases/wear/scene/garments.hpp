@@ -7,12 +7,19 @@
 #include "cases/wear/case/case.hpp"
 #include "core/cloth/draft/mesh_draft.hpp"
 #include "human/body/body.hpp"
+#include "human/motion/motion.hpp"
 
 namespace gambeson {
 
 /// One garment each, in the case's order, in place (`position`, `weft_angle`), with fabrics and patch names. Those that
-/// are drafted lie over those before them. `human` is null where the case has none.
-std::vector<Garment> draftGarments(const Case& c, const Human* human);
+/// are drafted lie over those before them. `human` is null where the case has none. `fit`: what there is to know of how
+/// they fit is added.
+std::vector<Garment> draftGarments(const Case& c, const Human* human, std::vector<std::string>* fit = nullptr);
+/// Whether the human is dressed with the arms further from the sides than they hang: panels are sewn around trunk or
+/// arms, none of the garments is drafted for hanging arms, and there is time for them to come down again.
+bool armsAside(const Case& c);
+/// In which posture all garments of a case are put on.
+Posture dressingPosture(const Case& c, const Human& human);
 /// Gives a garment the fabrics and fields that the case says of it.
 void addFabric(const Case& c, const GarmentCase& worn, Garment& garment);
 /// Of each garment that is a mesh from the start its triangles; `drafts`: of the same garments. Throws InputError with

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cases/cloth/usual.hpp"
+#include "cases/input/message.hpp"
 #include "cases/input/wrong_entry.hpp"
 #include "cases/wear/case/factors.hpp"
 #include "cases/wear/case/fields.hpp"
@@ -22,7 +23,6 @@
 #include "core/material/coarseness.hpp"
 #include "core/motion/step.hpp"
 #include "human/body/body.hpp"
-#include "human/motion/standing.hpp"
 #include "tryon/projecting.hpp"
 #include "tryon/skin_projecting.hpp"
 
@@ -72,10 +72,12 @@ struct Only {
 /// What is drafted over other garments is drafted over them also where it is put on by itself: it is the same garment.
 Wardrobe makeGarments(const Case& c, const Only& only, const Human* human) {
   Wardrobe made;
+  std::vector<std::string> fit;
   if (only.of)
     made.drafts = {std::move(draftGarments(withFactors(*only.of), human)[only.garment])};
   else
-    made.drafts = draftGarments(c, human);
+    made.drafts = draftGarments(c, human, &fit);
+  for (const std::string& note : fit) sayNote(note);
   made.meshes = readMeshes(c, made.drafts);
   return made;
 }
@@ -184,8 +186,11 @@ void planTimes(const Case& c, Scenario& s, CaseStage& stage) {
   stage.settle_start_s = -settle;
 }
 
+/// A time to settle that is none.
+constexpr double kAtOnce_s = 1e-9;
+
 /// What is worn at the start, and in which posture the garments are put on.
-void putOnAtStart(const Case& c, Scenario& s) {
+void putOnAtStart(const Case& c, const Only& only, Scenario& s) {
   if (!c.dressing.from.empty()) {
     const Dressed dressed = readDressed(c.dressing.from);
     wear(s, dressed);
@@ -194,7 +199,10 @@ void putOnAtStart(const Case& c, Scenario& s) {
              std::any_of(c.garments.begin(), c.garments.end(),
                          [](const GarmentCase& worn) { return kindOf(worn).drafted || kindOf(worn).sewn; }) &&
              s.human) {
-    s.stage->dressed = standing(*s.human);  // which the garments are drafted for
+    const Case& whole = only.of ? *only.of : c;
+    s.stage->dressed = dressingPosture(whole, *s.human);  // which the garments are drafted for
+    // Panels close around one posture: it is left when all garments are worn.
+    if (only.of && kindOf(c.garments[0]).sewn && armsAside(whole)) s.stage->settle_start_s = -kAtOnce_s;
   }
 }
 
@@ -249,7 +257,7 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, const Only& only) {
   const std::vector<std::string> unusual =
       unusualNumbers(schema::caseTable(), schema::writeObject(schema::caseTable(), &written));
   s->notes.insert(s->notes.begin(), unusual.begin(), unusual.end());
-  putOnAtStart(c, *s);
+  putOnAtStart(c, only, *s);
   if (isProjected(c)) shrinkBody(c, at_start, *s);
   return std::move(s);
 }

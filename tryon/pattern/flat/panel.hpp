@@ -8,6 +8,8 @@
 ///   lengths and areas, curves as NURBS, points by fractions of length   flat/panel_geometry.hpp
 ///   what is wrong with a pattern                                         flat/panel_check.hpp
 ///   seams for patterns that say none                                     flat/propose_seams.hpp
+///   regions of the body, and what names say of them                      flat/regions.hpp
+///   panels around a wearer by their regions, and whether they reach      flat/place_panels.hpp, flat/panel_fit.hpp
 
 #include <optional>
 #include <string>
@@ -95,7 +97,7 @@ struct Panel {
   std::vector<InternalLine> lines;
   std::vector<Annotation> annotations;
   std::optional<PanelPlace> placement;
-  std::string region;    ///< of the body: "arm", "body", ..; in the words of where it comes from, or empty
+  std::string region;    ///< of the body (flat/regions.hpp), or "arm", ..: as its source calls it; or empty
   std::string material;  ///< likewise
   std::string size;      ///< likewise: "M"
   int quantity = 1;      ///< how often it is cut
@@ -128,11 +130,16 @@ struct PatternSource {
   std::string file, format, unit;
 };
 
+/// Where panels start around a wearer. given: at their placements, or by their regions where some have none; regions:
+/// by their regions, whatever their placements (flat/place_panels.hpp).
+enum class PanelPlacing { given, regions };
+
 struct FlatPattern {
   std::string name;
   PatternSource source;
   std::vector<Panel> panels;
   std::vector<PanelSeam> seams;
+  PanelPlacing placing = PanelPlacing::given;
 };
 
 }  // namespace gambeson

@@ -9,6 +9,7 @@
 
 #include "cases/wear/case/case.hpp"
 #include "core/cloth/draft/mesh_draft.hpp"
+#include "human/motion/motion.hpp"
 #include "tryon/pattern/armour.hpp"
 #include "tryon/pattern/form.hpp"
 
@@ -26,7 +27,13 @@ struct GarmentMaking {
   double layer_m = 0;              ///< that it keeps from others where it is thickest
   const BodyForm* form = nullptr;  ///< null without a human
   std::span<const Worn> under;     ///< the garments before it
+  const Human* human = nullptr;    ///< null without a human, or where it has no surface
+  Posture posture;                 ///< in which it is put on
 };
+
+/// What a garment asks of the arms of whoever is dressed: nothing, that they hang as it was drafted for, or that they
+/// are further from the sides.
+enum class ArmsWanted { any, hanging, aside };
 
 /// All functions are of garments whose shape is of this kind.
 struct GarmentKind {
@@ -47,6 +54,9 @@ struct GarmentKind {
   std::string (*fieldless)(const GarmentCase& g) = [](const GarmentCase&) { return std::string(); };
   /// Makes the garment where its kind puts it (`position` and `weft_angle` follow), without fabrics and fields.
   Garment (*make)(const GarmentMaking& making) = nullptr;
+  /// What a user should know of how it fits the body, before it is put on.
+  Names (*fit)(const GarmentMaking& making) = [](const GarmentMaking&) { return Names{}; };
+  ArmsWanted (*arms)(const GarmentCase& g) = [](const GarmentCase&) { return ArmsWanted::any; };
   /// Reads the patches and edges of what stands in a file, for all that a case may name of them. Throws InputError
   /// where the file is not well. Null: it is not read.
   Garment (*look)(const GarmentCase& g) = nullptr;

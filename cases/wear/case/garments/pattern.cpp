@@ -1,10 +1,18 @@
 /// Detail of kind.hpp: flat panels and their seams, from a file of a pattern.
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cases/input/json.hpp"
 #include "cases/input/table.hpp"
+#include "cases/input/wrong_entry.hpp"
 #include "cases/pattern/pattern_file.hpp"
 #include "cases/wear/case/garments/kind.hpp"
 #include "core/error.hpp"
+#include "tryon/pattern/flat/panel_fit.hpp"
 #include "tryon/pattern/flat/panel_garment.hpp"
+#include "tryon/pattern/flat/place_panels.hpp"
 
 namespace gambeson {
 namespace schema {
@@ -27,14 +35,117 @@ Object patternGarmentTable() {
 
 namespace {
 
-Garment readPanels(const GarmentCase& g) {
-  const auto& p = std::get<PatternGarment>(g.shape);
-  const FlatPattern pattern = readPattern(p.path);
+const PatternGarment& of(const GarmentCase& g) { return std::get<PatternGarment>(g.shape); }
+
+/// Runs f; what is wrong with the pattern is said in its file.
+template <class F>
+auto inFile(const GarmentCase& g, F f) {
   try {
-    return panelGarment(pattern, {p.cell_m, p.degree});
+    return f();
   } catch (const InputError& e) {
-    throw InputError({p.path.string(), 0, e.where().key}, e.reason());
+    if (!e.where().file.empty() || e.where().key == "human") throw;
+    const JsonNode root = readJson(of(g).path, {.bytes = kPatternBytes});
+    const std::string file = of(g).path.string();
+    sayAt(schema::Entry{root, "", file}, e);
   }
+}
+
+bool byRegions(const FlatPattern& pattern) {
+  return pattern.placing == PanelPlacing::regions ||
+         std::any_of(pattern.panels.begin(), pattern.panels.end(), [](const Panel& p) { return !p.placement; });
+}
+
+/// Throws where a panel has neither placement nor region, or no region where others are placed by theirs.
+void checkPlaces(const FlatPattern& pattern) {
+  if (!byRegions(pattern)) return;
+  std::string allowed;
+  for (const std::string& name : regionNames()) allowed += (allowed.empty() ? "" : ", ") + name;
+  for (const bool placed : {false, true})
+    for (std::size_t k = 0; k < pattern.panels.size(); ++k) {
+      const Panel& panel = pattern.panels[k];
+      if (regionOf(panel) || panel.placement.has_value() != placed) continue;
+      const std::string near = schema::closest(panel.region, regionNames());
+      throw InputError({"", 0, fmt::format("panels[{}]", k)},
+                       fmt::format("panel \"{}\" has no {}{}: {}; allowed for \"region\": {}{}", panel.name,
+                                   placed ? "region" : "placement",
+                                   panel.region.empty()
+                                       ? (placed ? "" : " and no region")
+                                       : fmt::format(", and its region \"{}\" is no place on the body", panel.region),
+                                   placed ? "panels of this pattern are placed by their regions"
+                                          : "nothing says where it stands around its wearer",
+                                   allowed, near.empty() ? "" : fmt::format("; did you mean \"{}\"?", near)));
+    }
+}
+
+FlatPattern patternOf(const GarmentCase& g) {
+  FlatPattern pattern = readPattern(of(g).path);
+  inFile(g, [&] { checkPlaces(pattern); });
+  return pattern;
+}
+
+Garment garmentOf(const GarmentCase& g, const FlatPattern& pattern) {
+  return panelGarment(pattern, {of(g).cell_m, of(g).degree});
+}
+
+/// Its patches and edges, wherever they will stand.
+Garment lookAt(const GarmentCase& g) {
+  FlatPattern pattern = patternOf(g);
+  for (Panel& p : pattern.panels)
+    if (!p.placement) p.placement = PanelPlace{};
+  return inFile(g, [&] { return garmentOf(g, pattern); });
+}
+
+Garment makePanels(const GarmentMaking& m) {
+  FlatPattern pattern = patternOf(m.worn);
+  return inFile(m.worn, [&] {
+    if (!byRegions(pattern)) return garmentOf(m.worn, pattern);
+    if (!m.human)
+      throw InputError({"", 0, "panels"},
+                       "stand around a human by their regions, and the case has none; allowed: a placement for each");
+    const PlacedPanels placed = placePanels(pattern, StandingBody(*m.human, m.posture));
+    for (std::size_t k = 0; k < pattern.panels.size(); ++k) pattern.panels[k].placement = placed.flat[k];
+    Garment garment = garmentOf(m.worn, pattern);
+    garment.placed.resize(garment.patches.size());
+    for (std::size_t k = 0; k < garment.patches.size(); ++k)
+      for (const Vec3& x : garment.patches[k].points) {
+        const Vec3 r = x - placed.flat[k].origin_m;
+        garment.placed[k].push_back(placed.bent[k]({dot(r, placed.flat[k].along_x), dot(r, placed.flat[k].along_y)}));
+      }
+    return garment;
+  });
+}
+
+/// What is too narrow, and which panels stand in the body where they were placed for another.
+std::vector<std::string> fitOf(const GarmentMaking& m) {
+  if (!m.human) return {};
+  const FlatPattern pattern = patternOf(m.worn);
+  const std::string name = m.worn.name.empty() ? pattern.name : m.worn.name;
+  return inFile(m.worn, [&] {
+    std::vector<std::string> notes;
+    std::vector<LaidPanel> front, back;
+    if (byRegions(pattern)) {
+      const PlacedPanels placed = placePanels(pattern, StandingBody(*m.human, m.posture));
+      front = placed.front, back = placed.back;
+    } else {
+      layAsPlaced(pattern, front, back);
+      for (const Panel& panel : pattern.panels) {
+        const PanelPlace& at = *panel.placement;
+        const PanelDepth d = depthInBody(
+            panel, [&](Vec2 x) { return m.worn.position_m + at.origin_m + x.x * at.along_x + x.y * at.along_y; },
+            StandingBody(*m.human, m.posture));
+        if (d.depth_m > 0)
+          notes.push_back(
+              fmt::format("panel \"{}\" of the garment \"{}\" starts {:.1f} cm deep in the body ({}): it is "
+                          "placed for another wearer; \"placing\": \"regions\" in its file places all by their regions",
+                          panel.name, name, 100 * d.depth_m, d.segment));
+      }
+    }
+    if (const std::string text = shortText(panelGirths(pattern, front, back, StandingBody(*m.human, m.posture)));
+        !text.empty())
+      notes.push_back(
+          fmt::format("garment \"{}\" is narrower than its wearer before anything is sewn: {}", name, text));
+    return notes;
+  });
 }
 
 }  // namespace
@@ -48,8 +159,14 @@ const GarmentKind pattern_garment{
           table.alternative<PatternGarment>("pattern", &GarmentCase::shape, schema::patternGarmentTable(),
                                             "flat panels from a file, sewn around the wearer");
         },
-    .make = [](const GarmentMaking& m) { return readPanels(m.worn); },
-    .look = readPanels,
+    .make = makePanels,
+    .fit = fitOf,
+    .arms =
+        [](const GarmentCase& g) {
+          const FlatPattern pattern = patternOf(g);
+          return byRegions(pattern) && coversArms(pattern) ? ArmsWanted::aside : ArmsWanted::any;
+        },
+    .look = lookAt,
     .files = [](GarmentCase& g, const GarmentKind::Take& take) { take(std::get<PatternGarment>(g.shape).path); },
 };
 

@@ -55,6 +55,7 @@ const GarmentKind shirt_garment{
           s.seam_stiffness_N = m.worn.seam_stiffness_N;
           return makeShirt(s, *m.form, m.layer_m, m.under);
         },
+    .arms = [](const GarmentCase&) { return ArmsWanted::hanging; },
 };
 
 }  // namespace gambeson

@@ -1,0 +1,261 @@
+/// Panels around a wearer by their regions: free of the body and each other, seams face each other, heights as named.
+#include "tryon/pattern/flat/place_panels.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/contact/proximity.hpp"
+#include "core/error.hpp"
+#include "human/body/section.hpp"
+#include "human/manikin/manikin.hpp"
+#include "human/motion/standing.hpp"
+#include "tryon/pattern/flat/panel_fit.hpp"
+#include "unit/tryon/pattern/flat/region_patterns.hpp"
+
+namespace gambeson {
+namespace {
+
+using namespace region_patterns;
+
+constexpr double kAside = 40 * std::numbers::pi / 180;
+
+/// A size about right for a manikin, by its stature and chest.
+Size sizeFor(const StandingBody& form) {
+  Size s;
+  s.scale = form.human().stature_m / 1.76;
+  const double chest =
+      tapeGirth(form.level(form.origin(form.links({"torso"})[0]).z + 0.25 * s.scale, form.links({"torso"})));
+  s.quarter_chest = 0.29 * chest / s.scale;
+  return s;
+}
+
+struct Faced {
+  double widest_m = 0, mean_m = 0;
+};
+Faced facing(const FlatPattern& p, const PlacedPanels& placed) {
+  Faced f;
+  double length = 0;
+  for (const SeamPair& s : seamPairs(p)) {
+    const double d =
+        norm(placed.bent[static_cast<std::size_t>(s.a)](s.xa) - placed.bent[static_cast<std::size_t>(s.b)](s.xb));
+    f.widest_m = std::max(f.widest_m, d);
+    f.mean_m += d * s.length_m, length += s.length_m;
+  }
+  f.mean_m /= length;
+  return f;
+}
+
+TEST(PlacePanels, StandFreeOfEveryManikinAndFaceEachOther) {
+  const struct {
+    const char* name;
+    FlatPattern (*make)(const Size&);
+    double widest_m, mean_m;
+  } garments[] = {{"skirt", skirt, 0.2, 0.13},
+                  {"shirt", shirt, 0.35, 0.16},
+                  {"trousers", trousers, 0.45, 0.22},
+                  {"jumpsuit", jumpsuit, 0.45, 0.2}};
+  for (const std::string& manikin : manikinNames()) {
+    const Human human = makeManikin(manikin);
+    for (const auto& garment : garments) {
+      const StandingBody form(human, withArmsAside(human, standing(human), kAside));
+      const FlatPattern p = garment.make(sizeFor(form));
+      const PlacedPanels placed = placePanels(p, form);
+      for (std::size_t k = 0; k < p.panels.size(); ++k)
+        EXPECT_LT(depthInBody(p.panels[k], placed.bent[k], form).depth_m, -0.002)
+            << manikin << " " << garment.name << " " << p.panels[k].name;
+      const Faced f = facing(p, placed);
+      EXPECT_LT(f.widest_m, garment.widest_m) << manikin << " " << garment.name;
+      EXPECT_LT(f.mean_m, garment.mean_m) << manikin << " " << garment.name;
+      std::printf("%-11s %-9s seams face each other at %.3f m, at most %.3f m\n", manikin.c_str(), garment.name,
+                  f.mean_m, f.widest_m);
+    }
+  }
+}
+
+/// However wide they are, a plane stays free between what stands in front and what stands behind.
+TEST(PlacePanels, FrontAndBackNeverMeet) {
+  const Human human = makeManikin("female_p50");
+  const StandingBody form(human, standing(human));
+  for (const double hem : {0.2, 0.3, 0.45, 0.8}) {
+    Size s;
+    s.quarter_hem = hem;
+    const FlatPattern p = skirt(s);
+    const PlacedPanels placed = placePanels(p, form);
+    double front = 1e300, back = -1e300;
+    for (double y = 0; y <= 0.5; y += 0.05)
+      for (double x = -hem; x <= hem; x += 0.02) {
+        front = std::min(front, placed.bent[0]({x, y}).x);
+        back = std::max(back, placed.bent[1]({x, y}).x);
+      }
+    EXPECT_GT(front - back, 0.03) << hem;
+  }
+}
+
+/// Bent about one direction the sheets keep their lengths, and their right sides look away from the body.
+TEST(PlacePanels, AreBentWithoutStrainTheirRightSidesOut) {
+  const Human human = makeManikin("female_p50");
+  const StandingBody form(human, withArmsAside(human, standing(human), kAside));
+  const FlatPattern p = jumpsuit(sizeFor(form));
+  const PlacedPanels placed = placePanels(p, form);
+  for (std::size_t k = 0; k < p.panels.size(); ++k) {
+    const PanelBox box = boxOf(p.panels[k].outline);
+    const auto& at = placed.bent[k];
+    constexpr double h = 0.01;
+    for (double x = box.low.x; x < box.high.x; x += 0.03)
+      for (double y = box.low.y; y < box.high.y; y += 0.05) {
+        const Vec3 u = at({x + h, y}) - at({x, y}), v = at({x, y + h}) - at({x, y});
+        EXPECT_NEAR(norm(u), h, 0.01 * h) << p.panels[k].name;
+        EXPECT_NEAR(norm(v), h, 0.01 * h) << p.panels[k].name;
+        EXPECT_NEAR(dot(u, v), 0, 0.01 * h * h) << p.panels[k].name;
+      }
+    const Vec2 m{0.5 * (box.low.x + box.high.x), 0.5 * (box.low.y + box.high.y)};
+    const Vec3 out = cross(at({m.x + h, m.y}) - at(m), at({m.x, m.y + h}) - at(m)) / (h * h);
+    const std::string& name = p.panels[k].name;
+    const Vec3 away = name == "left sleeve"     ? Vec3{0, 1, 0}
+                      : name == "right sleeve"  ? Vec3{0, -1, 0}
+                      : name.ends_with("front") ? Vec3{1, 0, 0}
+                                                : Vec3{-1, 0, 0};
+    EXPECT_GT(dot(out, away), 0.5) << name;
+    EXPECT_GT(dot(cross(placed.flat[k].along_x, placed.flat[k].along_y), normalized(out)), 0.95) << name;
+  }
+}
+
+TEST(PlacePanels, ShouldersCrotchAndWaistTellTheHeight) {
+  const Human human = makeManikin("male_p50");
+  const StandingBody form(human, withArmsAside(human, standing(human), kAside));
+  const Size size = sizeFor(form);
+  const double shoulder = form.origin(form.links({"upper_arm_left"})[0]).z;
+  const FlatPattern p = shirt(size);
+  const PlacedPanels worn = placePanels(p, form);
+  for (std::size_t face = 0; face < 2; ++face) {
+    const Vec3 middle =
+        0.5 * (worn.bent[face](p.panels[face].outline[3].start_m) + worn.bent[face](p.panels[face].outline[4].start_m));
+    EXPECT_GT(middle.z, shoulder) << "on the shoulder";
+    EXPECT_LT(middle.z, shoulder + 0.12);
+  }
+  // The arm side of each seam is where its panel is: the left sleeve at the left, its cap at the shoulder.
+  EXPECT_GT(worn.bent[2](p.panels[2].outline[3].start_m).y, 0.15);
+  EXPECT_LT(worn.bent[3](p.panels[3].outline[3].start_m).y, -0.15);
+  EXPECT_NEAR(worn.bent[2](p.panels[2].outline[3].start_m).z, shoulder, 0.2);
+  EXPECT_LT(worn.bent[2](p.panels[2].outline[0].start_m).z, shoulder - 0.3) << "the hem at the hand";
+
+  const FlatPattern t = trousers(size);
+  const PlacedPanels legs = placePanels(t, form);
+  const double crotch = form.lowest(form.links({"pelvis"}));
+  EXPECT_NEAR(legs.bent[0](t.panels[0].outline[4].start_m).z, crotch - 0.01, 0.003);
+  EXPECT_NEAR(legs.bent[3](t.panels[3].outline[4].start_m).z, crotch - 0.01, 0.003);
+  EXPECT_GT(legs.bent[0](t.panels[0].outline[1].start_m).y, 0.1) << "the left leg's outer side is at the left";
+  EXPECT_GT(legs.bent[2](t.panels[2].outline[0].start_m).y, 0.1);
+
+  const FlatPattern s = skirt(size);
+  const PlacedPanels hung = placePanels(s, form);
+  const double lumbar = form.origin(form.links({"torso"})[0]).z;
+  EXPECT_NEAR(hung.bent[0](s.panels[0].outline[2].start_m).z, lumbar + 0.04, 0.04);
+}
+
+/// Upright by the grain, however a piece was drawn: a lying shirt is worn as the standing one.
+TEST(PlacePanels, AGrainLineTurnsWhatWasDrawnLying) {
+  const Human human = makeManikin("male_p50");
+  const StandingBody form(human, withArmsAside(human, standing(human), kAside));
+  FlatPattern p = shirt(sizeFor(form));
+  const PlacedPanels standing_up = placePanels(p, form);
+  for (Panel& panel : p.panels) {
+    const auto turn = [](Vec2& x) { x = {x.y, -x.x}; };
+    for (PanelEdge& e : panel.outline) {
+      turn(e.start_m);
+      if (auto* b = std::get_if<BezierEdge>(&e.curve))
+        for (Vec2& c : b->controls_m) turn(c);
+    }
+    panel.grain = GrainLine{{0.2, 0}, {0.4, 0}};
+  }
+  const PlacedPanels lying = placePanels(p, form);
+  for (std::size_t k = 0; k < p.panels.size(); ++k) {
+    const Vec2 x{0.05, 0.3};
+    EXPECT_LT(norm(lying.bent[k]({x.y, -x.x}) - standing_up.bent[k](x)), 1e-6) << p.panels[k].name;
+  }
+}
+
+/// Fronts that are not sewn to each other stand side by side, the left one at the left.
+TEST(PlacePanels, HalvesOfARegionShareItsPlace) {
+  const Human human = makeManikin("male_p50");
+  const StandingBody form(human, standing(human));
+  FlatPattern p;
+  const auto square = [](const char* name, const char* region) {
+    return panel(name, region, {edge(0, 0), edge(0.24, 0), edge(0.24, 0.5), edge(0, 0.5)});
+  };
+  p.panels = {square("lf", "left_front"), square("rf", "right_front"), square("b", "back"), square("b2", "back"),
+              square("b3", "back")};
+  p.seams = {{"left", {{0, 1, 0, 1}}, {{2, 3, 1, 0}}},
+             {"right", {{4, 1, 0, 1}}, {{1, 3, 1, 0}}},
+             {"back left", {{2, 1, 0, 1}}, {{3, 3, 1, 0}}},
+             {"back right", {{3, 1, 0, 1}}, {{4, 3, 1, 0}}}};
+  checkPattern(p);
+  const PlacedPanels placed = placePanels(p, form);
+  const auto y = [&](std::size_t k) { return placed.bent[k]({0.12, 0.25}).y; };
+  EXPECT_GT(y(0), 0.05);
+  EXPECT_LT(y(1), -0.05);
+  EXPECT_GT(y(2), y(3) + 0.1) << "behind, the first is at the left";
+  EXPECT_GT(y(3), y(4) + 0.1);
+  EXPECT_NEAR(placed.bent[0]({0, 0.5}).z, placed.bent[3]({0, 0.5}).z, 1e-9);
+}
+
+TEST(PlacePanels, WhatHasNoPlaceIsRefused) {
+  const Human human = makeManikin("male_p50");
+  const StandingBody form(human, standing(human));
+  const auto refusal = [&](const FlatPattern& p, std::string& key) {
+    try {
+      placePanels(p, form);
+    } catch (const InputError& e) {
+      key = e.where().key;
+      return e.reason();
+    }
+    return std::string();
+  };
+  std::string key;
+  FlatPattern p = skirt({});
+  p.panels[1].region = "somewhere";
+  EXPECT_NE(refusal(p, key).find("\"back\" has no region"), std::string::npos);
+  EXPECT_EQ(key, "panels[1]");
+  // Between two walls as wide as the arms reach there is no room for a wide sleeve.
+  FlatPattern walled;
+  walled.panels = {panel("wall", "front", {edge(-1, 0), edge(1, 0), edge(1, 1.6), edge(-1, 1.6)}),
+                   panel("other wall", "back", {edge(-1, 0), edge(1, 0), edge(1, 1.6), edge(-1, 1.6)}),
+                   panel("wide", "left_sleeve", {edge(-0.6, 0), edge(0.6, 0), edge(0.6, 0.6), edge(-0.6, 0.6)})};
+  walled.seams = {{"", {{0, 2, 0, 1}}, {{1, 2, 1, 0}}}};
+  const std::string no_room = refusal(walled, key);
+  EXPECT_NE(no_room.find("panel \"wide\" finds no room around the left arm"), std::string::npos) << no_room;
+  EXPECT_EQ(key, "panels[2]");
+}
+
+/// Rectangles that are 4 cm narrower around than the hips are said to be, by the tape's own number.
+TEST(PanelFit, TellsWhereAndByHowMuch) {
+  const Human human = makeManikin("female_p50");
+  const StandingBody form(human, standing(human));
+  const StandingBody::Links around = form.links({"pelvis", "torso", "thigh_left", "thigh_right"});
+  const double hip = form.origin(around[2]).z, girth = tapeGirth(form.level(hip, around));
+  Size s;
+  s.quarter_waist = s.quarter_hem = 0.25 * (girth - 0.04);
+  FlatPattern p = skirt(s);
+  const PlacedPanels placed = placePanels(p, form);
+  bool found = false;
+  for (const PanelGirth& g : panelGirths(p, placed.front, placed.back, form)) {
+    if (g.where != "hip") continue;
+    found = true;
+    EXPECT_NEAR(g.height_m, hip, 1e-9);
+    EXPECT_NEAR(g.body_m, girth, 1e-9);
+    EXPECT_NEAR(g.short_m(), 0.04, 1e-6);
+  }
+  EXPECT_TRUE(found);
+  const std::string text = shortText(panelGirths(p, placed.front, placed.back, form));
+  EXPECT_NE(text.find("at the hip"), std::string::npos) << text;
+  EXPECT_NE(text.find("4.0 cm short"), std::string::npos) << text;
+  s.quarter_waist = s.quarter_hem = 0.25 * (girth + 0.04);
+  p = skirt(s);
+  const PlacedPanels wider = placePanels(p, form);
+  EXPECT_EQ(shortText(panelGirths(p, wider.front, wider.back, form)), "");
+}
+
+}  // namespace
+}  // namespace gambeson
