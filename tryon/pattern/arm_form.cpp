@@ -13,8 +13,8 @@ namespace {
 constexpr const char* kGarment = "garment.shirt";
 constexpr const char* kLength = "sleeve_length_m";
 constexpr int levels = 121;
-constexpr double level_m = 0.004;    ///< between heights at which the shoulder is looked for
-constexpr double highest_m = 0.2;    ///< above the joint
+constexpr double level_m = 0.004;  ///< between heights at which the shoulder is looked for
+constexpr double highest_m = 0.2;  ///< above the joint
 
 std::vector<Vec2> grown(const std::vector<Vec2>& points, double factor, const Vec2& centre) {
   std::vector<Vec2> out;
@@ -71,7 +71,8 @@ ArmForm::ArmForm(const BodyForm& form, const SleeveFit& fit, std::span<const Wor
   }
   kept_ = Wrap(sections, hem_, top).widened(fit.keep_m).offset(fit.keep_m);
   Wrap over = *kept_;
-  if (sleeveWrapOf(under, X_AW_, fit.layer_m, fit.gap_m, hem_, top, levels, over)) kept_ = kept_->with(over);
+  if (sleeveWrapOf(under, X_AW_, fit.layer_m, fit.gap_m, hem_, top, levels, over))
+    kept_ = kept_->with(over.widened((top - hem_) / (levels - 1)));  // a hem at this one's height has no cut there
   sleeve_ = Wrap(eased, hem_, top).with(*kept_);
   if (std::isfinite(fit.shoulder_z_m)) {
     const Links torso = form.links({"torso"}, kGarment);

@@ -35,9 +35,9 @@ class ArmForm {
 
   const Pose& toArm() const { return X_AW_; }  ///< from the world
   Pose toWorld() const { return inverse(X_AW_); }
-  double hem() const { return hem_; }                 ///< z of the hem
-  double elbow() const { return elbow_; }             ///< z of the elbow
-  double top() const { return sleeve_->to(); }        ///< z where the arm ends at the shoulder
+  double hem() const { return hem_; }           ///< z of the hem
+  double elbow() const { return elbow_; }       ///< z of the elbow
+  double top() const { return sleeve_->to(); }  ///< z where the arm ends at the shoulder
   /// The sleeve's cross-section, hem <= z <= top.
   std::vector<Vec2> at(double z) const { return sleeve_->crossSection(z); }
   /// What no sleeve may come into: the arm with what is kept from it, without ease.

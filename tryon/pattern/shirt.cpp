@@ -226,8 +226,8 @@ Trim neckline(const Draft& d, const ShirtPattern& p, double height_m) {
                         {one, {{0.5, low}, {l, low}, {l, 1}}, {1, 1, 1}}}}};
 }
 
-/// A sleeve that is drafted into the trunk cannot be worn: what lies beside the wrap keeps its distance from it, but for
-/// two cells below the armhole, where the two are sewn together.
+/// A sleeve that is drafted into the trunk cannot be worn: what lies beside the wrap keeps its distance from it, but
+/// for two cells below the armhole, where the two are sewn together.
 void checkRoom(const Draft& d, const SleeveDraft& sleeve, const ShirtPattern& p, double layer_m) {
   constexpr int looks = 40;
   for (int part = 0; part < 4; ++part)
@@ -237,8 +237,9 @@ void checkRoom(const Draft& d, const SleeveDraft& sleeve, const ShirtPattern& p,
         const Vec3 x = sleeve.at(part, s, t);
         if (x.z < d.hem() || x.z > d.wrapTop() || sleeve.belowArmhole(part, s, t) < 2 * p.cell_m) continue;
         if (!(d.beside(x) > layer_m))
-          reject("sleeve_ease", fmt::format("{:.4g}, leaves no room between chest and sleeve {:.1f} cm below the armhole",
-                                            p.sleeve_ease, 100 * (d.wrapTop() - x.z)));
+          reject("sleeve_ease",
+                 fmt::format("{:.4g}, leaves no room between chest and sleeve {:.1f} cm below the armhole",
+                             p.sleeve_ease, 100 * (d.wrapTop() - x.z)));
       }
 }
 
@@ -254,7 +255,11 @@ void addSleeves(Garment& g, const Draft& d, const ShirtPattern& p, const BodyFor
   };
   const std::array<Hole, 4> holes{{
       {{front, u1}, {front, u0, true}, d.wrap_up, 0, d.front_up - d.wrap_up},
-      {{strap_left, u1}, {strap_right, u0, true}, 0, 0, static_cast<int>(breakpoints(g.patches[strap_left].v).size()) - 1},
+      {{strap_left, u1},
+       {strap_right, u0, true},
+       0,
+       0,
+       static_cast<int>(breakpoints(g.patches[strap_left].v).size()) - 1},
       {{back, u0, true}, {back, u1}, 0, 0, d.back_up},
       {{side_wrap, v1, true}, {side_wrap, v1, true}, d.wrap_around - wrapped, 0, wrapped},
   }};
@@ -287,9 +292,8 @@ void addSleeves(Garment& g, const Draft& d, const ShirtPattern& p, const BodyFor
   const auto along = uniformKnots(p.degree, sleeve.along());
   const Vec3 axis = arm.toWorld().rotation.c;
   for (int k = 0; k < 4; ++k) {
-    g.patches[sleeve_front_left + k] =
-        interpolate(uniformKnots(p.degree, holes[static_cast<std::size_t>(k)].cells), along,
-                    [&](double s, double t) { return sleeve.at(k, s, t); });
+    g.patches[sleeve_front_left + k] = interpolate(uniformKnots(p.degree, holes[static_cast<std::size_t>(k)].cells),
+                                                   along, [&](double s, double t) { return sleeve.at(k, s, t); });
     g.weft[sleeve_front_left + k] = axis;
   }
   for (int k = 0; k < 4; ++k) {
