@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Long sleeves of a coarse draft: what check calls valid can be drafted and worn while the elbows bend.
+"""Long sleeves of a coarse draft: what check calls valid can be drafted and worn while the arms swing.
 
     sleeves.py GAMBESON
 
 The longest sleeve that check names on a small woman is accepted and a centimetre more is not; a sleeve that ends at the
-armhole is told the shortest. So long, the shirt is worn through the first moments of taking aim without any check of
+armhole is told the shortest. So long, the shirt is worn through the first moments of walking without any check of
 the run failing, with torques at the elbows. Laid flat, its seams say the armholes.
 """
 
@@ -17,15 +17,15 @@ from common import Folder, check, run
 
 WEARER = "female_p5"
 CASE = {
-    "name": "Long sleeves on a small woman, the first moments of taking aim",
-    "garment": {"shirt": {"sleeve_length": "90 cm", "sleeve_ease": "15 %", "cell": "45 mm"}, "samples_per_cell": 2},
+    "name": "Long sleeves on a small woman, the first moments of walking",
+    "garment": {"shirt": {"sleeve_length": "90 cm", "sleeve_ease": "15 %", "cell": "40 mm"}, "samples_per_cell": 2},
     "fabric": {"thickness": "0.762 mm", "density": "436 kg/m^3", "young": "100 kPa", "poisson": 0.3,
                "bending": {"law": "linear", "rigidity": "1e-4 N m"}},
-    "human": {"manikin": WEARER, "motion": {"aim": {"stand": "0.05 s", "duration": "1.2 s"}}},
+    "human": {"manikin": WEARER, "motion": {"walk": {"lead_in": "0.4 s", "strides": 1}}},
     "contact": {"layer": "1 mm", "friction": 0.3},
     "air": {"drag": "4 kg/(m^2 s)"},
     "dressing": {"settle": "0.06 s"},
-    "time": {"duration": "0.2 s"},
+    "time": {"duration": "0.12 s"},
     "output": {"window": "10 ms", "frame": "20 ms", "checkpoint": "100 ms", "pictures": []},
     "analysis": {"joints": ["elbow_flexion_left", "elbow_flexion_right"], "counting": "all_distal"},
 }

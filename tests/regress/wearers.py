@@ -136,7 +136,7 @@ def case(name, human, program, folder):
         made["garment"]["shorts"]["inseam"] = f"{inseam:.1f} cm"
         return made
     if in_sleeves(name):
-        made["garment"] = {"shirt": {"sleeve_ease": "15 %", "cell": "40 mm"}, "samples_per_cell": 3}
+        made["garment"] = {"shirt": {"sleeve_ease": "15 %", "cell": "35 mm"}, "samples_per_cell": 3}
         made["fabric"] = {"thickness": "0.762 mm", "density": "436 kg/m^3", "young": "200 kPa", "poisson": 0.3,
                           "bending": {"law": "linear", "rigidity": "1e-4 N m"}}
         made["supports"] = []

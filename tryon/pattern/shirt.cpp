@@ -309,8 +309,9 @@ void addSleeves(Garment& g, const Draft& d, const ShirtPattern& p, const BodyFor
   const double stiff = p.seam_stiffness_N;
   for (int k = 0; k < 4; ++k) {
     const Hole& hole = holes[static_cast<std::size_t>(k)];
-    fitPart(g, {{sleeve_front_left + k, v1}, hole.left, SeamKind::C0, stiff, hole.first_left});
-    fitPart(g, {{sleeve_front_right + k, v1}, hole.right, SeamKind::C0, stiff, hole.first_right});
+    // Free to fold: under the arm they nearly lie on each other, where a spring's angle ends.
+    fitPart(g, {{sleeve_front_left + k, v1}, hole.left, SeamKind::C0, 0, hole.first_left});
+    fitPart(g, {{sleeve_front_right + k, v1}, hole.right, SeamKind::C0, 0, hole.first_right});
   }
   for (int k = 0; k < 4; ++k)
     for (const bool right : {false, true}) {

@@ -14,6 +14,7 @@ namespace {
 constexpr double bend_below_m = 0.08;  ///< of the armhole's lowest point: where the cap begins
 constexpr double level_m = 0.003;      ///< between cross-sections of the hull
 constexpr double tube_level_m = 0.01;  ///< between those of the tube
+constexpr double kRise = 0.4;          ///< slope at which a sleeve leaves the wrap under the arm
 constexpr int cap_pieces = 48;         ///< of a line over the cap
 /// From the armhole: within it a line comes off the hull, or into what is kept around the body, to its point.
 constexpr double drawn_m = 0.06, let_in_m = 0.02;
@@ -112,10 +113,12 @@ SleeveDraft::Line SleeveDraft::makeLine(int part, double s) const {
   // How much of the line lies over the shoulder: none under the arm.
   const double over = part == 0 ? s : part == 1 ? 1 : part == 2 ? 1 - s : 0;
   const Vec3 p = line.points.back(), a = own.at(s);
-  // The arc's corner, above p: level with the armhole's point in the world under the arm, along the arm over it.
+  // The arc's corner, above p: over the shoulder as high as the armhole's point along the arm; under the arm a little
+  // higher in the world, so that the sleeve rises from the wrap's edge, which bulges between its ends.
   const Vec3 up = transposeTimes(arm_.toWorld().rotation, {0, 0, 1});
   const double level = up.z > 0.5 ? a.z + (up.x * (a.x - p.x) + up.y * (a.y - p.y)) / up.z : a.z;
-  const Vec3 m{p.x, p.y, std::max(p.z, over * a.z + (1 - over) * level)};
+  const double rise = kRise * std::hypot(a.x - p.x, a.y - p.y);
+  const Vec3 m{p.x, p.y, std::max(p.z, over * a.z + (1 - over) * (level + rise))};
   // How far the armhole's point stands inside: there a line comes back to it.
   const double hulled = std::max(1.0, reach(*hull_, a)), kept = std::max(1.0, reach(arm_.kept(), a));
   for (int k = 1; k < cap_pieces; ++k) {
