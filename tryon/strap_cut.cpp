@@ -15,7 +15,8 @@ std::vector<StrapCut> strapCuts(const Cloth& cloth, std::span<const std::string>
     if (!names[p].substr(names[p].rfind(' ') + 1).starts_with("strap")) continue;
     const ClothPatch& patch = cloth.patches()[p];
     const bool along_u = patch.sewn[0] && patch.sewn[1], along_v = patch.sewn[2] && patch.sewn[3];
-    if (along_u == along_v) continue;
+    const bool at_third = (patch.sewn[0] != patch.sewn[1]) || (patch.sewn[2] != patch.sewn[3]);  // a sleeve's, say
+    if (along_u == along_v || at_third) continue;
     const int index = static_cast<int>(p);
     const PatchEdge edges[] = {{index, along_v ? Side::v0 : Side::u0}, {index, along_v ? Side::v1 : Side::u1}};
     std::vector<int> beyond[] = {cloth.mounting().edgePoints(edges[0], kRows),

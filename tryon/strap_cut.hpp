@@ -18,8 +18,8 @@ struct StrapCut {
   std::vector<int> beyond;  ///< points of the strap beyond the cut
 };
 
-/// Both ends of each strap: a patch whose name's last word starts with "strap", that is sewn at two opposite sides (and
-/// not at all four), and has points between the cuts.
+/// Both ends of each strap: a patch whose name's last word starts with "strap", that is sewn at two opposite sides and
+/// at no other (a sleeve sewn to a third side pulls at what is between the cuts), and has points between the cuts.
 std::vector<StrapCut> strapCuts(const Cloth& cloth, std::span<const std::string> patch_names);
 
 /// Of each point how much of it lies beyond the cuts, away from the straps' middles: 1, but 0 between the cuts

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """The coarse armour and the coarse shorts on everyone who can wear them: shorts, belt and shirt put on and worn
 standing by the six manikins with their skins and by the public characters, each drafted on its wearer, and the shorts
-worn through a stride of the public recordings, on a skin and on ellipsoids. Trousers down to the ankle walk, climb
-stairs, step over an obstacle and sit down on all of them.
+worn through a stride of the public recordings, on a skin and on ellipsoids. Trousers down to the ankle and shirts with
+sleeves down to the wrist walk, climb stairs, step over an obstacle and sit down on all of them; the shirts also take
+aim.
 
     wearers.py GAMBESON CROSSINGS_CHECK [--jobs N] [--walk] [NAME...]
 
@@ -47,6 +48,8 @@ CHARACTERS = {"gltf": MALE, "makehuman": MAKEHUMAN}
 TROUSERS = {"trousers_stand": STAND, "trousers_walk": {"walk": {"lead_in": "0.5 s", "strides": 1}},
             "trousers_stairs": {"stairs": {"strides": 1, "lead_in_strides": 0}},
             "trousers_step_over": {"step_over": {"height": "0.3 m"}}, "trousers_sit": {"sit": {}}}
+SLEEVES = {task.replace("trousers", "sleeves"): motion for task, motion in TROUSERS.items() if task != "trousers_stand"}
+SLEEVES["sleeves_aim"] = {"aim": {"duration": "1.5 s", "rifle": "3.5 kg"}}
 
 
 def stands(human):
@@ -55,6 +58,10 @@ def stands(human):
 
 def in_trousers(name):
     return "_trousers_" in name
+
+
+def in_sleeves(name):
+    return "_sleeves_" in name
 
 
 def wearers(walk):
@@ -73,7 +80,7 @@ def wearers(walk):
         recorded("makehuman_walk1.bvh", slower=1.8, travel="feet", hips_apart="8 deg", arms_apart="12 deg"))
     for name in MANIKINS:
         out |= {f"{name}_{task}": {"manikin": name, "skin": {"cell": "14 mm"}, "motion": motion}
-                for task, motion in TROUSERS.items()}
+                for task, motion in (TROUSERS | SLEEVES).items()}
     absent = []
     if MOTION.exists():
         for name, motion in zip(RECORDED, motions):
@@ -85,9 +92,9 @@ def wearers(walk):
         for name, character in CHARACTERS.items():
             out[name] = {"character": character, "motion": STAND}
             # The quaternius man's thighs clear 0.26 m.
-            lower = {"trousers_step_over": {"step_over": {"height": "0.25 m"}}}
+            lower = {f"{worn}_step_over": {"step_over": {"height": "0.25 m"}} for worn in ("trousers", "sleeves")}
             out |= {f"{name}_{task}": {"character": {**character, "switch_off_folds": True}, "motion": motion}
-                    for task, motion in (TROUSERS | lower).items()}
+                    for task, motion in (TROUSERS | SLEEVES | lower).items()}
             if walk:
                 out[name + "_walks"] = {"character": character, "motion": {"walk": {"strides": 1}}}
                 out[name + "_climbs"] = {"character": {**character, "switch_off_folds": True},
@@ -97,20 +104,20 @@ def wearers(walk):
     return out, absent
 
 
-def longest(program, made, folder):
-    """The longest inseam [cm] that `check` says can be drafted on this wearer."""
+def longest(program, made, folder, shape, key):
+    """The longest legs or sleeves [cm] that `check` says can be drafted on this wearer."""
     file = folder / f"{made['name']}_longest.json"
-    file.write_text(json.dumps(made | {"garment": {"shorts": {**made["garment"]["shorts"], "inseam": "1.2 m"}}}))
+    file.write_text(json.dumps(made | {"garment": {shape: {**made["garment"][shape], key: "1 m"}}}))
     said = subprocess.run([program, "check", str(file)], capture_output=True, text=True).stderr
-    found = re.search(r"inseam: .*at most ([0-9.]+) cm on ", said)
-    check(found is not None, f"{made['name']}: check says no longest inseam: {said}")
+    found = re.search(key + r": .*at most ([0-9.]+) cm on ", said)
+    check(found is not None, f"{made['name']}: check says no longest {key}: {said}")
     return float(found.group(1))
 
 
 def case(name, human, program, folder):
     # Every frame in double precision.
     output = {"window": "10 ms", "frame": "20 ms", "checkpoint": "20 ms"}
-    if stands(human) and not in_trousers(name):
+    if stands(human) and not in_trousers(name):  # no sleeves stand
         made = json.loads((SOURCE / "cases/library/armour_stand.json").read_text())
         return made | {"name": name, "human": human, "output": output}
     made = json.loads((SOURCE / "cases/library/shorts_walk_skin.json").read_text())
@@ -127,8 +134,20 @@ def case(name, human, program, folder):
         made["analysis"] = {"joints": ["hip_flexion_left", "hip_flexion_right", "knee_flexion_left",
                                        "knee_flexion_right"], "counting": "all_distal"}
         made.pop("air")
-        inseam = longest(program, made, folder) - 1
+        inseam = longest(program, made, folder, "shorts", "inseam") - 1
         made["garment"]["shorts"]["inseam"] = f"{inseam:.1f} cm"
+        return made
+    if in_sleeves(name):
+        made["garment"] = {"shirt": {"sleeve_ease": "15 %", "cell": "35 mm"}, "samples_per_cell": 3}
+        made["fabric"] = {"thickness": "0.762 mm", "density": "436 kg/m^3", "young": "200 kPa", "poisson": 0.3,
+                          "bending": {"law": "linear", "rigidity": "1e-4 N m"}}
+        made["supports"] = []
+        made["dressing"] = {"settle": "0.3 s"}
+        made["output"] = output | {"pictures": []}
+        made["analysis"] = {"joints": ["elbow_flexion_left", "elbow_flexion_right", "shoulder_flexion_left",
+                                       "shoulder_flexion_right"], "counting": "all_distal"}
+        made.pop("air")
+        made["garment"]["shirt"]["sleeve_length"] = f"{longest(program, made, folder, 'shirt', 'sleeve_length') - 1:.1f} cm"
         return made
     made["air"] = {"drag": "4 kg/(m^2 s)", "velocity": "pelvis_mean"}
     made["analysis"] = {"joints": ["hip_flexion_left", "hip_flexion_right"], "counting": "all_distal"}
@@ -152,7 +171,7 @@ def armour_faults(summary):
 def words(summary, human, name):
     depth = summary["deepest_penetration_of_finer_surface"]
     said = f"{summary['steps']['count']} steps, {1e3 * depth['deepest_m']:.3f} mm deep, "
-    if in_trousers(name):
+    if in_trousers(name) or in_sleeves(name):
         return said + ", ".join(f"{j['joint']} {j['peak_Nm']:.2f} N m" for j in summary["joints"])
     if stands(human):
         masses = {g["garment"]: g["mass_kg"] for g in summary["garments"]}

@@ -72,11 +72,27 @@ std::vector<Vec2> BodyForm::cut(double at, const Links& of, const double* lean) 
       if (isOf(of, human_.shapes[i].link)) add(human_.shapes[i].shape, placements_[i]);
     return out;
   }
+  add(skinOf(of), Placement{});
+  return out;
+}
+
+TriangleMesh BodyForm::skinOf(const Links& of) const {
   TriangleMesh part;
   part.vertices = skin_.vertices;
   for (const auto& t : skin_.triangles)
     if (isOf(of, segment_[t[0]]) && isOf(of, segment_[t[1]]) && isOf(of, segment_[t[2]])) part.triangles.push_back(t);
-  add(part, Placement{});
+  return part;
+}
+
+std::vector<Vec2> BodyForm::across(const Pose& X_FW, double at, const Links& of) const {
+  const auto moved = [&](const Placement& X) {
+    return Placement{X_FW.rotation * X.rotation, X_FW * X.origin, X.scale};
+  };
+  if (!segment_.empty()) return crossSection(Shape{skinOf(of)}, moved({}), at);
+  std::vector<Vec2> out;
+  for (std::size_t i = 0; i < human_.shapes.size(); ++i)
+    if (isOf(of, human_.shapes[i].link))
+      for (const Vec2& p : crossSection(human_.shapes[i].shape, moved(placements_[i]), at)) out.push_back(p);
   return out;
 }
 

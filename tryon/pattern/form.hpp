@@ -35,6 +35,8 @@ class BodyForm {
   /// Points of the surface of some links: at a height (x, y), and in a plane of constant y (x, z), both leaned().
   std::vector<Vec2> level(double z, const Links& of) const;
   std::vector<Vec2> profile(double y, const Links& of, double lean_rad = 0) const;
+  /// The same in a plane across an axis: (x, y) of the points whose z is `at` in the frame that X_FW takes them to.
+  std::vector<Vec2> across(const Pose& X_FW, double at, const Links& of) const;
   /// Height of the lowest point [m]; infinite without a surface.
   double lowest(const Links& of) const;
   /// Hull of a level; mirrored about the median plane where asked. Throws InputError with `key` where there is none.
@@ -49,6 +51,7 @@ class BodyForm {
  private:
   /// A level, or a profile where a lean is given.
   std::vector<Vec2> cut(double at, const Links& of, const double* lean) const;
+  TriangleMesh skinOf(const Links& of) const;  ///< the part of the skin that belongs to some links
 
   const Human& human_;
   std::vector<Placement> placements_;

@@ -1,14 +1,18 @@
 /// Detail of armour.hpp: the shirt; its layout is described there.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
+
+#include <fmt/format.h>
 
 #include "core/cloth/draft/part_seam.hpp"
 #include "core/error.hpp"
 #include "tryon/pattern/armour.hpp"
 #include "tryon/pattern/check.hpp"
 #include "tryon/pattern/fit.hpp"
+#include "tryon/pattern/sleeve.hpp"
 #include "tryon/pattern/strap.hpp"
 
 namespace gambeson {
@@ -32,6 +36,11 @@ void check(const ShirtPattern& p) {
   for (const auto& [key, value] :
        {std::pair{"hem_above_waist_m", p.hem_above_waist_m}, std::pair{"top_below_shoulder_m", p.top_below_shoulder_m}})
     if (!(value >= -0.1 && value <= 0.2)) reject(key, std::to_string(value) + ", must lie between -0.1 and 0.2");
+  if (!p.sleeve_length_m) return;
+  requirePositive("sleeve_length_m", *p.sleeve_length_m);
+  for (const auto& [key, ease] :
+       {std::pair{"sleeve_ease", p.sleeve_ease}, std::pair{"sleeve_hem_ease", p.sleeve_hem_ease.value_or(0)}})
+    if (!(ease >= 0 && ease <= 2)) reject(key, std::to_string(ease) + ", must lie between 0 and 2");
 }
 
 /// A ring at one height: the curve around, and where its centre front stands on it.
@@ -44,6 +53,9 @@ struct Ring {
   }
 };
 
+/// What sleeves keep from the arm: besides layer and gap what a spline of such cells cuts off a round of 5 cm.
+double keptFromArm(const ShirtPattern& p, double layer_m) { return layer_m + p.gap_m + p.cell_m * p.cell_m / 0.4; }
+
 class Draft {
  public:
   Draft(const ShirtPattern& p, const BodyForm& form, double layer_m, std::span<const Worn> under)
@@ -55,6 +67,7 @@ class Draft {
         std::abs(form.origin(form.links({"upper_arm_left"}, "garment.shirt")[0]).y - form.medianY());
     neck_half = std::max(2, static_cast<int>(std::round(p.neck_share * shoulder / cell)));
     margin = static_cast<int>(std::round(p.margin_m / cell));
+    if (p.sleeve_length_m) margin = 0;  // straps end at the armholes
     panel_cells = 2 * (neck_half + strap_cells + margin);
     top_half_m = (neck_half + strap_cells + margin) * cell;
 
@@ -94,6 +107,15 @@ class Draft {
     return r.at((2 * s - 1) * half * (0.8 + 0.2 * t), z);
   }
   double top() const { return top_; }
+  double wrapTop() const { return wrap_top_; }
+  double hem() const { return hem_; }
+  /// How far from the wrap a point beside it stands, along the ray from the wrap's middle; negative inside.
+  double beside(const Vec3& x) const {
+    const ClosedCurve& curve = ringAt(x.z).curve;
+    const Vec2 c = curve.centroid(), ray{x.x - c.x, x.y - c.y};
+    const Vec2 p = curve.point(curve.crossing(c, ray));
+    return std::hypot(ray.x, ray.y) - std::hypot(p.x - c.x, p.y - c.y);
+  }
 
   int strap_cells = 0, neck_half = 0, margin = 0, panel_cells = 0, front_up = 0, wrap_up = 0, back_up = 0,
       wrap_around = 0, belly_across = 0, belly_up = 0;
@@ -137,16 +159,17 @@ class Draft {
       if (wrap_up == 2) reject("ease", std::to_string(p_.ease) + ", leaves no room between chest and arms");
     }
   }
-  /// Whether the wrap keeps its distance from the insides of the arms, as the body stands.
+  /// Whether the wrap keeps its distance from the insides of the arms, or of their sleeves, as the body stands.
   bool clearOfArms(const Wrap& out, double layer_m) const {
     const Links arm = form_.links({"upper_arm_left", "forearm_left", "hand_left"}, "garment.shirt");
+    const double sleeve = p_.sleeve_length_m ? layer_m + keptFromArm(p_, layer_m) : 0;
     constexpr int heights = 60;
     for (int k = 0; k <= heights; ++k) {
       const double z = hem_ + (wrap_top_ - hem_) * k / heights;
       double widest = -HUGE_VAL, inside = HUGE_VAL;
       for (const Vec2& p : out.crossSection(z)) widest = std::max(widest, p.y);
       for (const Vec2& p : form_.level(z, arm)) inside = std::min(inside, p.y);
-      if (!(widest + layer_m + p_.gap_m <= inside)) return false;
+      if (!(widest + layer_m + p_.gap_m + sleeve <= inside)) return false;
     }
     return true;
   }
@@ -203,6 +226,109 @@ Trim neckline(const Draft& d, const ShirtPattern& p, double height_m) {
                         {one, {{0.5, low}, {l, low}, {l, 1}}, {1, 1, 1}}}}};
 }
 
+/// A sleeve that is drafted into the trunk cannot be worn: what lies beside the wrap keeps its distance from it, but
+/// for two cells below the armhole, where the two are sewn together.
+void checkRoom(const Draft& d, const SleeveDraft& sleeve, const ShirtPattern& p, double layer_m) {
+  constexpr int looks = 40;
+  for (int part = 0; part < 4; ++part)
+    for (int k = 0; k < looks; ++k)
+      for (int i = 0; i < 4; ++i) {
+        const double s = i / 4.0, t = static_cast<double>(k) / looks;
+        const Vec3 x = sleeve.at(part, s, t);
+        if (x.z < d.hem() || x.z > d.wrapTop() || sleeve.belowArmhole(part, s, t) < 2 * p.cell_m) continue;
+        if (!(d.beside(x) > layer_m))
+          reject("sleeve_ease",
+                 fmt::format("{:.4g}, leaves no room between chest and sleeve {:.1f} cm below the armhole",
+                             p.sleeve_ease, 100 * (d.wrapTop() - x.z)));
+      }
+}
+
+/// Both sleeves: strips of the left one beside each other, and their mirror images, sewn to the armholes.
+void addSleeves(Garment& g, const Draft& d, const ShirtPattern& p, const BodyForm& form, double layer_m,
+                std::span<const Worn> under) {
+  using enum Side;
+  const int wrapped = (d.wrap_around - d.panel_cells) / 2;  // cells of the wrap under an arm
+  /// Where each strip is sewn to, left and right, and from which cell on.
+  struct Hole {
+    PatchEdge left, right;
+    int first_left, first_right, cells;
+  };
+  const std::array<Hole, 4> holes{{
+      {{front, u1}, {front, u0, true}, d.wrap_up, 0, d.front_up - d.wrap_up},
+      {{strap_left, u1},
+       {strap_right, u0, true},
+       0,
+       0,
+       static_cast<int>(breakpoints(g.patches[strap_left].v).size()) - 1},
+      {{back, u0, true}, {back, u1}, 0, 0, d.back_up},
+      {{side_wrap, v1, true}, {side_wrap, v1, true}, d.wrap_around - wrapped, 0, wrapped},
+  }};
+  std::array<ArmholePart, 4> armhole;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Hole& hole = holes[k];
+    const NurbsPatch& patch = g.patches[hole.left.patch];
+    const bool along_v = hole.left.side == u0 || hole.left.side == u1;
+    const double far = hole.left.side == u1 || hole.left.side == v1 ? 1 : 0;
+    const double all = static_cast<double>(breakpoints(along_v ? patch.v : patch.u).size()) - 1;
+    const int points = 16 * hole.cells;
+    for (int i = 0; i <= points; ++i) {
+      const double sense = (hole.first_left + static_cast<double>(hole.cells) * i / points) / all;
+      const double at = std::clamp(hole.left.reversed ? 1 - sense : sense, 0.0, 1.0);
+      armhole[k].points.push_back(surfaceDerivatives(patch, along_v ? far : at, along_v ? at : far)[0]);
+    }
+    armhole[k].cells = hole.cells;
+  }
+  SleeveFit fit{*p.sleeve_length_m, p.sleeve_ease, p.sleeve_hem_ease};
+  fit.keep_m = keptFromArm(p, layer_m);
+  fit.layer_m = layer_m;
+  fit.gap_m = p.gap_m;
+  fit.shoulder_z_m = 0.5 * (d.wrapTop() + d.top());
+  for (const ArmholePart& part : armhole)
+    for (const Vec3& x : part.points) fit.shoulder_y_m = std::min(fit.shoulder_y_m, x.y);
+  const ArmForm arm(form, fit, under);
+  const SleeveDraft sleeve(arm, armhole, p.cell_m);
+  checkRoom(d, sleeve, p, layer_m);
+
+  const auto along = uniformKnots(p.degree, sleeve.along());
+  const Vec3 axis = arm.toWorld().rotation.c;
+  for (int k = 0; k < 4; ++k) {
+    g.patches[sleeve_front_left + k] = interpolate(uniformKnots(p.degree, holes[static_cast<std::size_t>(k)].cells),
+                                                   along, [&](double s, double t) { return sleeve.at(k, s, t); });
+    g.weft[sleeve_front_left + k] = axis;
+  }
+  for (int k = 0; k < 4; ++k) {
+    const NurbsPatch& left = g.patches[sleeve_front_left + k];
+    NurbsPatch& right = g.patches[sleeve_front_right + k] = left;
+    for (int j = 0; j < left.v.count(); ++j)
+      for (int i = 0; i < left.u.count(); ++i) {
+        const Vec3& x = left.points[left.index(left.u.count() - 1 - i, j)];
+        right.points[right.index(i, j)] = {x.x, 2 * form.medianY() - x.y, x.z};
+      }
+    g.weft[sleeve_front_right + k] = {axis.x, -axis.y, axis.z};
+  }
+  const double stiff = p.seam_stiffness_N;
+  for (int k = 0; k < 4; ++k) {
+    const Hole& hole = holes[static_cast<std::size_t>(k)];
+    // Free to fold: under the arm they nearly lie on each other, where a spring's angle ends.
+    fitPart(g, {{sleeve_front_left + k, v1}, hole.left, SeamKind::C0, 0, hole.first_left});
+    fitPart(g, {{sleeve_front_right + k, v1}, hole.right, SeamKind::C0, 0, hole.first_right});
+  }
+  for (int k = 0; k < 4; ++k)
+    for (const bool right : {false, true}) {
+      const int first = right ? sleeve_front_right : sleeve_front_left;
+      const Seam seam{{first + k, right ? u0 : u1}, {first + (k + 1) % 4, right ? u1 : u0}, SeamKind::C0, stiff};
+      const auto ra = edgeRow(g.patches[seam.a.patch], seam.a), rb = edgeRow(g.patches[seam.b.patch], seam.b);
+      for (std::size_t i = 0; i + 1 < ra.size(); ++i)  // the same up to rounding
+        g.patches[seam.b.patch].points[rb[i]] = g.patches[seam.a.patch].points[ra[i]];
+      g.seams.push_back(seam);
+    }
+  for (const bool right : {false, true}) {
+    NamedEdge cuff{right ? "cuff_right" : "cuff_left", {}};
+    for (int k = 0; k < 4; ++k) cuff.edges.push_back({(right ? sleeve_front_right : sleeve_front_left) + k, v0});
+    g.edges.push_back(cuff);
+  }
+}
+
 }  // namespace
 
 Garment makeShirt(const ShirtPattern& p, const BodyForm& form, double layer_m, std::span<const Worn> under) {
@@ -211,9 +337,9 @@ Garment makeShirt(const ShirtPattern& p, const BodyForm& form, double layer_m, s
   const auto knots = [&](int cells) { return uniformKnots(p.degree, cells); };
   Garment g;
   g.name = "shirt";
-  g.patch_names = shirtPatchNames();
-  g.patches.resize(6);
-  g.weft.assign(6, {0, 0, 1});
+  g.patch_names = shirtPatchNames(p.sleeve_length_m.has_value());
+  g.patches.resize(g.patch_names.size());
+  g.weft.assign(g.patches.size(), {0, 0, 1});
   const auto across = knots(d.panel_cells);
   g.patches[front] = interpolate(across, knots(d.front_up), [&](double s, double t) { return d.front(s, t); });
   g.patches[side_wrap] =
@@ -257,13 +383,14 @@ Garment makeShirt(const ShirtPattern& p, const BodyForm& form, double layer_m, s
   fitPart(g, {{strap_right, v0}, {front, v1}, C0, k, outer});
   fitPart(g, {{strap_right, v1, true}, {back, v1}, C0, k, inner});
 
-  g.trims.resize(6);
+  g.trims.resize(g.patches.size());
   g.trims[front] =
       neckline(d, p, norm(upper(front, 0.5 * d.panel_cells) - surfaceDerivatives(g.patches[front], 0.5, 0)[0]));
   g.edges = {{"hem", {{front, v0}, {side_wrap, v0}}},
              {"neck_front", {{front, v1}}},
              {"neck_back", {{back, v1}}},
              {"belly_hem", {{belly, v0}}}};
+  if (p.sleeve_length_m) addSleeves(g, d, p, form, layer_m, under);
   validate(g);
   return g;
 }

@@ -8,11 +8,21 @@
 namespace gambeson {
 namespace {
 
-/// A garment as it starts, as triangles between points of each cell.
-TriangleMesh meshOf(const Garment& g) {
+/// Names of a shirt's strips of sleeves (ShirtPatch).
+bool isSleeve(const Garment& g, std::size_t patch) {
+  return patch < g.patch_names.size() && g.patch_names[patch].starts_with("sleeve_");
+}
+bool isLeftSleeve(const Garment& g, std::size_t patch) {
+  return isSleeve(g, patch) && g.patch_names[patch].ends_with("_left");
+}
+
+/// Those patches of a garment that `takes` says, as it starts, as triangles between points of each cell.
+template <class F>
+TriangleMesh meshOf(const Garment& g, const F& takes) {
   constexpr int per_cell = 3;
   TriangleMesh mesh;
   for (std::size_t n = 0; n < g.patches.size(); ++n) {
+    if (!takes(g, n)) continue;
     NurbsPatch p = g.patches[n];
     if (!g.placed.empty() && !g.placed[n].empty()) p.points = g.placed[n];
     const auto lines = [](const KnotVector& k) {
@@ -39,18 +49,37 @@ TriangleMesh meshOf(const Garment& g) {
 
 }  // namespace
 
-bool wrapOf(std::span<const Worn> under, double layer_m, double gap_m, double from, double to, int heights, Wrap& out) {
+namespace {
+
+template <class F>
+bool wrapOf(std::span<const Worn> under, const Placement& placed, const F& takes, double layer_m, double gap_m,
+            double from, double to, int heights, Wrap& out) {
   bool any = false;
   for (const Worn& w : under) {
-    const Shape mesh = meshOf(*w.garment);
+    const TriangleMesh part = meshOf(*w.garment, takes);
+    if (part.triangles.empty()) continue;
+    const Shape mesh = part;
     std::vector<std::vector<Vec2>> cross_sections;
     for (int k = 0; k < heights; ++k)
-      cross_sections.push_back(crossSection(mesh, Placement{}, from + (to - from) * k / (heights - 1)));
+      cross_sections.push_back(crossSection(mesh, placed, from + (to - from) * k / (heights - 1)));
     const Wrap wrap = Wrap::plain(cross_sections, from, to).offset(0.5 * (w.layer_m + layer_m) + gap_m);
     out = any ? out.with(wrap) : wrap;
     any = true;
   }
   return any;
+}
+
+}  // namespace
+
+bool wrapOf(std::span<const Worn> under, double layer_m, double gap_m, double from, double to, int heights, Wrap& out) {
+  return wrapOf(
+      under, Placement{}, [](const Garment& g, std::size_t n) { return !isSleeve(g, n); }, layer_m, gap_m, from, to,
+      heights, out);
+}
+
+bool sleeveWrapOf(std::span<const Worn> under, const Pose& X_FW, double layer_m, double gap_m, double from, double to,
+                  int heights, Wrap& out) {
+  return wrapOf(under, {X_FW.rotation, X_FW.origin}, isLeftSleeve, layer_m, gap_m, from, to, heights, out);
 }
 
 double waistOf(std::span<const Worn> under, double otherwise) {

@@ -110,6 +110,24 @@ Wrap Wrap::blended(const std::vector<Vec2>& other, const std::function<double(do
 
 double Wrap::girth(double z) const { return ClosedCurve(crossSection(z)).length(); }
 
+double Wrap::beyond(double z, const Vec2& point) const {
+  static const std::vector<Vec2> normals = [] {
+    std::vector<Vec2> out;
+    for (int d = 0; d < directions; ++d) out.push_back(directionOf(d, directions));
+    return out;
+  }();
+  const int n = heights();
+  const double at = std::clamp((z - from_) / (to_ - from_), 0.0, 1.0) * (n - 1);
+  const int k = std::min(static_cast<int>(at), n - 2);
+  const double t = at - k;
+  double most = -HUGE_VAL;
+  for (int d = 0; d < directions; ++d) {
+    const double h = (1 - t) * support_[k][d] + t * support_[k + 1][d];
+    most = std::max(most, normals[d].x * point.x + normals[d].y * point.y - h);
+  }
+  return most;
+}
+
 std::vector<Vec2> Wrap::crossSection(double z) const {
   const int n = static_cast<int>(support_.size());
   const double at = std::clamp((z - from_) / (to_ - from_), 0.0, 1.0) * (n - 1);

@@ -25,6 +25,8 @@ class Wrap {
 
   /// The cross-section as the polygon of its tangents, counterclockwise; from <= z <= to.
   std::vector<Vec2> crossSection(double z) const;
+  /// How far a point lies outside of the cross-section, or (negative) inside of it: the largest over all directions.
+  double beyond(double z, const Vec2& point) const;
   /// Length of the cross-section, the integral of the support over all directions (Cauchy).
   double girth(double z) const;
 

@@ -147,6 +147,7 @@ FreeMap buildFreeMap(const Garment& garment) {
     int seam;
   };
   std::map<int, Combination> combined;
+  std::vector<std::pair<int, Combination>> again;  // of corners that seams on parts of edges hold more than once
   std::vector<int> alike(n, 0);
   for (int i = 0; i < n; ++i) ++alike[joined.find(i)];
   for (int s = 0; s < static_cast<int>(garment.seams.size()); ++s) {
@@ -163,8 +164,14 @@ FreeMap buildFreeMap(const Garment& garment) {
       }
       const double apart = norm(at - Q[a.edge[k]]);
       if (!(apart <= 1e-9 * norm(Q[a.inner[k]] - Q[a.edge[k]]))) reject(s, "the edges do not meet at rest");
-      if (alike[joined.find(a.edge[k])] > 1 || !combined.try_emplace(joined.find(a.edge[k]), std::move(c)).second)
+      const int point = joined.find(a.edge[k]);
+      const bool held = combined.contains(point), corner = k == 0 || k + 1 == a.edge.size();
+      if ((held || alike[point] > 1) && !corner)
         reject(s, "an edge on a part of another may not be joined to a third one");
+      if (held)
+        again.emplace_back(point, std::move(c));
+      else
+        combined.emplace(point, std::move(c));
     }
   }
   for (int s = 0; s < static_cast<int>(garment.seams.size()); ++s) {
@@ -229,6 +236,13 @@ FreeMap buildFreeMap(const Garment& garment) {
     }
     return rows.emplace(r, std::move(row)).first->second;
   };
+  for (const auto& [point, c] : again) {
+    std::map<int, double> row = resolve(point);
+    for (const auto& [of, weight] : c.of)
+      for (const auto& [i, w] : resolve(joined.find(of))) row[i] -= weight * w;
+    for (const auto& [column, value] : row)
+      if (std::abs(value) > 1e-9) reject(c.seam, "seams that meet at a corner contradict each other");
+  }
   map.T.column_count = static_cast<int>(map.home.size());
   for (int i = 0; i < n; ++i) {
     for (const auto& [column, value] : resolve(joined.find(i))) map.T.add(column, value);

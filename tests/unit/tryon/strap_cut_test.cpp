@@ -57,6 +57,15 @@ TEST(StrapCut, IsWhereAStrapIsSewn) {
   EXPECT_EQ(cuts[0].beyond, first_rows);
   EXPECT_EQ(cuts[1].beyond, (std::vector<int>{60, 61, 62, 63, 56, 57, 58, 59}));
   EXPECT_NEAR(cuts[0].width_m, kWidth_m, 1e-12);
+  Garment sleeved = strapped();  // sewn at a third side
+  sleeved.patches.push_back(strip(0.2, 0.4));
+  for (Vec3& x : sleeved.patches.back().points) x.x += kWidth_m;
+  sleeved.weft.push_back({1, 0, 0});
+  sleeved.garment_of_patch.push_back(0);
+  sleeved.seams.push_back({{4, Side::u0}, {1, Side::u1}, SeamKind::C0, 0.01});
+  std::vector<std::string> with_sleeve = names;
+  with_sleeve.push_back("shirt sleeve_top_left");
+  EXPECT_TRUE(strapCuts(NurbsShell(sleeved), with_sleeve).empty());
   Garment one_end = strapped();
   one_end.seams.pop_back();
   EXPECT_TRUE(strapCuts(NurbsShell(one_end), names).empty());

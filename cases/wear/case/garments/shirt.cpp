@@ -27,6 +27,14 @@ Object shirtTable() {
       .number("cell", &S::cell_m, "m", between(0.002, 0.1), "wanted size of a cell; smaller is finer and slower")
       .integer("degree", &S::degree, 2, 5, "polynomial degree")
       .number("gap", &S::gap_m, "m", between(0, 0.02), "farther out than the garments under it ask for")
+      .number("sleeve_length", &S::sleeve_length_m, "m", between(0.05, 1),
+              "of the sleeves, from the shoulder joint along the arm to the hem: below the armhole, down to the wrist")
+      .defaultsTo("no sleeves")
+      .number("sleeve_ease", &S::sleeve_ease, "", between(0, 1),
+              "how much wider than the arm: girth = (1 + ease) that of the arm")
+      .number("sleeve_hem_ease", &S::sleeve_hem_ease, "", between(0, 1),
+              "ease of the sleeves' hems over the arm there, to which they taper between elbow and hem")
+      .defaultsTo("hems below the elbow as wide as the forearm with the ease, so that it can bend")
       .build();
 }
 
@@ -41,14 +49,18 @@ const GarmentKind shirt_garment{
         [](schema::Table<GarmentCase>& table) {
           table.alternative<ShirtGarment>(
               "shirt", &GarmentCase::shape, schema::shirtTable(),
-              "a shirt without sleeves of six patches (front, back, strap_left, strap_right, "
-              "side_wrap, belly), drafted on the human over the garments before it");
+              "a shirt of six patches (front, back, strap_left, strap_right, side_wrap, belly), drafted on the human "
+              "over the garments before it; with sleeves of four more each (sleeve_front, sleeve_top, sleeve_back, "
+              "sleeve_under, _left and _right)");
         },
     .edges =
-        [](const GarmentCase&) {
-          return GarmentKind::Names{"hem", "neck_front", "neck_back", "belly_hem"};
+        [](const GarmentCase& g) {
+          return shirtEdgeNames(std::get<ShirtGarment>(g.shape).sleeve_length_m.has_value());
         },
-    .patches = [](const GarmentCase&) { return shirtPatchNames(); },
+    .patches =
+        [](const GarmentCase& g) {
+          return shirtPatchNames(std::get<ShirtGarment>(g.shape).sleeve_length_m.has_value());
+        },
     .make =
         [](const GarmentMaking& m) {
           ShirtGarment s = std::get<ShirtGarment>(m.worn.shape);

@@ -26,8 +26,8 @@ void edgeField(Table<S>& table) {
   f.kind = Kind::text;
   f.required = true;
   f.doc =
-      "which edge of the garment: waist, hem_left, hem_right of shorts and trousers; start, end of a tube; u0, u1, v0, v1 of a "
-      "sheet; or "
+      "which edge of the garment: waist, hem_left, hem_right of shorts and trousers; hem, neck_front, neck_back, "
+      "belly_hem, cuff_left, cuff_right of a shirt; start, end of a tube; u0, u1, v0, v1 of a sheet; or "
       "patch and side, such as 2.u0";
   table.custom(
       f,

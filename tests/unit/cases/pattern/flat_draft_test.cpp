@@ -29,8 +29,11 @@ std::vector<Garment> drafts() {
   shorts.cell_m = 0.04, shorts.inseam_m = 0.65;
   ShirtPattern shirt;
   shirt.cell_m = 0.035;
+  ShirtPattern sleeved = shirt;
+  sleeved.sleeve_length_m = 0.3;
   SkirtPattern skirt;
-  return {makeShorts(shorts, form), makeShirt(shirt, form, 1e-3, {}), makeSkirt(skirt, form, 1e-3, {})};
+  return {makeShorts(shorts, form), makeShirt(shirt, form, 1e-3, {}), makeShirt(sleeved, form, 1e-3, {}),
+          makeSkirt(skirt, form, 1e-3, {})};
 }
 
 void expectSame(const std::vector<SeamPart>& a, const std::vector<SeamPart>& b, const std::string& seam) {

@@ -39,7 +39,7 @@ const Keys carried{
     {"Belt", "width tension below_waist cell degree gap"},
     {"Shirt",
      "ease hem_above_waist top_below_shoulder wrap_share front_share strap_width neck_share "
-     "neck_depth margin belly_length belly_share cell degree gap"},
+     "neck_depth margin belly_length belly_share cell degree gap sleeve_length sleeve_ease sleeve_hem_ease"},
     {"Skirt", "length ease flare cells_around cells_along degree"},
     {"Garment file", "path"},
     {"Friction", "kinetic"},

@@ -117,6 +117,48 @@ TEST(PartSeam, TrimmingMayCutTheRestOfTheEdge) {
   EXPECT_THROW(buildFreeMap(notched(0.6, 0.8)), InputError);  // takes a stretch of the joined part
 }
 
+/// Two sheets side by side, and a strip upward from each, both up to the line where the sheets meet; the strips are
+/// joined along it.
+Garment twoStrips(int degree, bool sheets_joined) {
+  Garment g = sheetWithStrip(degree);
+  g.patches = {g.patches[0], g.patches[0], g.patches[1], g.patches[1]};
+  for (Vec3& x : g.patches[1].points) x.x += 0.08;
+  for (Vec3& x : g.patches[2].points) x.x += 0.03;
+  for (Vec3& x : g.patches[3].points) x.x += 0.06;
+  g.weft.assign(4, {1, 0, 0});
+  g.seams = {{{2, Side::v0}, {0, Side::v1}, SeamKind::C0, 0, 5},
+             {{3, Side::v0}, {1, Side::v1}, SeamKind::C0, 0, 0},
+             {{2, Side::u1}, {3, Side::u0}, SeamKind::C0, 0}};
+  if (sheets_joined) g.seams.push_back({{0, Side::u1}, {1, Side::u0}, SeamKind::C0, 0});
+  return g;
+}
+
+TEST(PartSeam, MeetsAnotherAtACorner) {
+  for (const int degree : {1, 2, 3}) {
+    const Garment g = twoStrips(degree, true);
+    const FreeMap map = buildFreeMap(g);
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> any(-1, 1);
+    std::vector<Vec3> p(map.T.column_count), q(map.T.rows());
+    for (Vec3& x : p) x = {any(random), any(random), any(random)};
+    map.T.multiply<Vec3>(p, q);
+    for (int k = 0; k <= 30; ++k) {
+      const double s = k / 30.0;
+      EXPECT_LT(norm(at(g, q, 2, s, 0) - at(g, q, 0, 0.625 + 0.375 * s, 1)), 1e-14);
+      EXPECT_LT(norm(at(g, q, 3, s, 0) - at(g, q, 1, 0.375 * s, 1)), 1e-14);
+      EXPECT_LT(norm(at(g, q, 2, 1, s) - at(g, q, 3, 0, s)), 1e-14);
+    }
+  }
+  // Sheets that are not joined would part the strips at their corner.
+  try {
+    buildFreeMap(twoStrips(2, false));
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& e) {
+    EXPECT_EQ(e.where().key, "seams[1]");
+    EXPECT_NE(e.reason().find("contradict"), std::string::npos) << e.reason();
+  }
+}
+
 TEST(PartSeam, BadInputIsRefused) {
   const auto refused = [](const std::function<void(Garment&)>& damage, const char* key = "seams[0]") {
     Garment g = sheetWithStrip(2);

@@ -126,5 +126,32 @@ TEST(FlattenDraft, AShirtHasItsNeckline) {
     EXPECT_NEAR(lengthOf(flat.pattern, s.a) / lengthOf(flat.pattern, s.b), 1, 0.05) << s.name;
 }
 
+// Four pieces each: their seams name the armhole, piece by piece, and those along the arm.
+TEST(FlattenDraft, SleevesAreSewnIntoArmholes) {
+  const Human human = makeManikin("female_p50");
+  const BodyForm form(human);
+  ShirtPattern p;
+  p.cell_m = 0.035;
+  p.sleeve_length_m = 0.45;
+  const Garment shirt = makeShirt(p, form, 1e-3, {});
+  const FlattenedDraft flat = flattenDraft(shirt);
+  ASSERT_EQ(flat.pattern.panels.size(), 14u);
+  ASSERT_EQ(flat.pattern.seams.size(), 8u + 2 * 8u);
+  for (int k = 0; k < 4; ++k) {
+    const int left = sleeve_front_left + k, right = sleeve_front_right + k;
+    EXPECT_NEAR(areaOf(flat.pattern.panels[left]) / areaOf(flat.pattern.panels[right]), 1, 1e-2);
+    EXPECT_EQ(flat.pattern.panels[left].outline[0].name, "cuff_left");
+    EXPECT_EQ(flat.pattern.panels[right].outline[0].name, "cuff_right");
+    EXPECT_LT(flat.flattening[left].rms_strain, left == sleeve_top_left ? 0.1 : 0.02) << k;  // a shoulder is round
+  }
+  int armhole = 0;
+  for (const PanelSeam& s : flat.pattern.seams) {
+    const bool cap = s.a.front().panel == sleeve_top_left || s.a.front().panel == sleeve_top_right;
+    EXPECT_NEAR(lengthOf(flat.pattern, s.a) / lengthOf(flat.pattern, s.b), 1, cap ? 0.4 : 0.1) << s.name;
+    armhole += s.a.front().panel >= sleeve_front_left && s.b.front().panel < sleeve_front_left;
+  }
+  EXPECT_EQ(armhole, 8);
+}
+
 }  // namespace
 }  // namespace gambeson
