@@ -95,6 +95,7 @@ std::vector<LabTest> testsOf(const FabricOptions& o, const FabricCard& card) {
 }
 
 std::vector<double> directionsOf(const FabricOptions& o, LabTest test, const FabricCard& card) {
+  if (test == LabTest::drape) return {0};  // a disc has all of them
   if (!o.directions_deg.empty()) return o.directions_deg;
   return !fitsLoop(o) || test != LabTest::bending ? directionsOf(test, card) : std::vector<double>{0};
 }
@@ -107,7 +108,7 @@ Json testJson(const MeasuredTest& test) {
       one["card"] = *r.card / r.per_unit;
       if (r.share)
         one["difference_points"] = 100 * (r.measured - *r.card);
-      else
+      else if (*r.card != 0)
         one["difference"] = r.measured / *r.card - 1;
     }
     readings.push_back(one);
@@ -173,6 +174,19 @@ void checkOutputs(const FabricOptions& o, const FabricCard& card) {
   makeFolder(o.out);
 }
 
+/// Draping rings have quadratic cells with assumed strains, which laws in closed form have: the others lock in folds.
+void checkDrape(const FabricOptions& o, const FabricCard& card, const CardFabric& c) {
+  const std::vector<LabTest> tests = testsOf(o, card);
+  if (o.out.empty() || std::find(tests.begin(), tests.end(), LabTest::drape) == tests.end()) return;
+  if (c.fabric.energy)
+    throw InputError({o.card.string(), 0, "tensile.law"},
+                     "cannot be draped where it is a curve; allowed for --test: the other tests");
+  if (o.specimen.degree != 2)
+    throw InputError({"command line", 0, "--degree"},
+                     fmt::format("{}: drape is tested with cells of degree 2; allowed: 2, or the other tests by --test",
+                                 o.specimen.degree));
+}
+
 }  // namespace
 
 int runFabric(const FabricOptions& o, std::ostream& out) {
@@ -185,6 +199,7 @@ int runFabric(const FabricOptions& o, std::ostream& out) {
     c = fabricOf(card);
   else
     fit = bendByFit(o, card, raw, c);
+  checkDrape(o, card, c);
   checkOutputs(o, card);
   useThreads(1);
   out << fabricTable(card, c) << '\n';

@@ -65,8 +65,9 @@ std::vector<std::string> proposeRegions(FlatPattern& pattern) {
   for (Panel& panel : pattern.panels) {
     if (regionOf(panel.region)) continue;
     if (const std::string word = proposedRegion(panel.name); !word.empty()) {
+      said.push_back(fmt::format("{}: \"{}\", by its name{}", panel.name, word,
+                                 panel.region.empty() ? "" : fmt::format(" (the file says \"{}\")", panel.region)));
       panel.region = word;
-      said.push_back(fmt::format("{}: \"{}\", by its name", panel.name, word));
     } else if (!panel.placement) {
       open.push_back(panel.name);
     }

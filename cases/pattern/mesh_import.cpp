@@ -80,8 +80,8 @@ class Importer {
     if (!choices_.unit.empty() || !choices_.up.empty() || choices_.piece > 0)
       throw InputError({"command line", 0,
                         !choices_.unit.empty() ? "--unit"
-                        : choices_.up.empty()  ? "--piece"
-                                               : "--up"},
+                        : !choices_.up.empty() ? "--up"
+                                               : "--piece"},
                        "has no meaning for a mesh of ours: it is one piece, in m, with z up");
     const std::string name = out_.file.name;
     out_.file = loadClothMesh(file_);

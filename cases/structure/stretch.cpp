@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "analysis/ticks.hpp"
 #include "cases/cloth/limit_name.hpp"
 
@@ -37,7 +39,8 @@ void StretchTally::add(const MeasuredState& state) {
   for (std::size_t i = 0; i < mesh_.uv.size(); ++i) {
     const PlaneTensor E = stress_->strainAt(cloth, mesh_.patch[i], mesh_.uv[i], means);
     for (std::size_t d = 0; d < 2; ++d)
-      if (const double strain = d == 0 ? E.t11 : E.t22; !(strain <= along_[d].most)) along_[d].most = strain;
+      if (const double strain = d == 0 ? E.t11 : E.t22; !std::isnan(along_[d].most) && !(strain <= along_[d].most))
+        along_[d].most = strain;  // a NaN stays
   }
 }
 

@@ -8,8 +8,6 @@
 namespace gambeson {
 namespace {
 
-constexpr double kWaist = 0.1, kChest = 0.56, kThigh = 0.35, kUpperArm = 0.5;
-
 bool isOf(const std::vector<int>& links, int link) {
   return std::find(links.begin(), links.end(), link) != links.end();
 }
@@ -33,16 +31,16 @@ std::vector<GirthPlane> girthPlanes(const Human& human, std::span<const Pose> X)
   }
   if (pelvis >= 0 && torso >= 0 && head >= 0) {
     const double trunk = norm(pose(head).origin - pose(torso).origin);
-    add("waist", torso, kWaist * trunk, {pelvis, torso});
-    add("chest", torso, kChest * trunk, {pelvis, torso});
+    add("waist", torso, kWaistShare * trunk, {pelvis, torso});
+    add("chest", torso, kChestShare * trunk, {pelvis, torso});
   }
   for (const char* side : {"_left", "_right"}) {
     const auto along = [&](const char* upper, const char* lower, double share) {
       const int a = s.link(std::string(upper) + side), b = s.link(std::string(lower) + side);
       if (a >= 0 && b >= 0) add(std::string(upper) + side, a, -share * norm(pose(b).origin - pose(a).origin), {a});
     };
-    along("thigh", "shank", kThigh);
-    along("upper_arm", "forearm", kUpperArm);
+    along("thigh", "shank", kThighShare);
+    along("upper_arm", "forearm", kUpperArmShare);
   }
   return planes;
 }

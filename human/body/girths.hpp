@@ -10,6 +10,9 @@
 
 namespace gambeson {
 
+/// Where the planes are: of the trunk (the lumbar joint to the neck's), the thigh and the upper arm.
+inline constexpr double kWaistShare = 0.1, kChestShare = 0.56, kThighShare = 0.35, kUpperArmShare = 0.5;
+
 /// Across a part of the body: hip (through the hip joints), waist (a tenth of the way from the lumbar joint to the
 /// neck's), chest (0.56 of it), thigh_left, thigh_right (0.35 of the thigh below the hip joint), upper_arm_left,
 /// upper_arm_right (halfway). The plane moves with its link; e1 and e2 span it.

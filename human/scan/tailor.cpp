@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "human/body/girths.hpp"
@@ -70,8 +71,8 @@ class Tailor {
   /// The level between two heights whose girth is the largest (sign 1) or the smallest (-1).
   Level extreme(const char* name, double from, double to, double sign, const Triangles& triangles) const {
     Level best = levelAt(name, from);
-    double most = sign * scanned(best, triangles);
-    for (double z = from + kStep_m; z <= to; z += kStep_m) {
+    double most = -std::numeric_limits<double>::infinity();
+    for (double z = from; z <= to; z += kStep_m) {
       const Level level = levelAt(name, z);
       if (const double g = scanned(level, triangles); g > 0 && sign * g > most) most = sign * g, best = level;
     }

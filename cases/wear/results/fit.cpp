@@ -25,9 +25,11 @@ Stretch largestOf(const Scenario& s, const std::vector<StressSummary>& patches, 
   Stretch most;
   for (std::size_t p = 0; p < patches.size(); ++p) {
     if (s.model->cloth->patches()[p].garment != static_cast<int>(garment)) continue;
-    // Not std::max: a NaN must win.
-    if (!(patches[p].p99_strain <= most.most)) most.most = patches[p].p99_strain;
-    if (!(patches[p].max_strain <= most.largest)) most.largest = patches[p].max_strain;
+    const auto raise = [](double& largest, double x) {
+      if (!std::isnan(largest) && !(x <= largest)) largest = x;  // a NaN stays
+    };
+    raise(most.most, patches[p].p99_strain);
+    raise(most.largest, patches[p].max_strain);
   }
   most.garment = nameOf(s, garment);
   return most;

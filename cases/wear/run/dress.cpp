@@ -110,9 +110,9 @@ bool areSame(const Posture& a, const Posture& b) {
 }
 
 /// A garment of flat panels by itself, without supports: first with the time that its seams have to close around the
-/// body in the posture of its skin, since panels are placed for a scan as it was scanned, and then, from settle_start_s
-/// of the stage on, on its way to where the motion starts, if that is elsewhere. Without friction, by which edges that
-/// close over a shoulder, say, jam.
+/// body in the posture that they are placed for (puttingOnPosture: arms aside, or as it was scanned), and then, from
+/// settle_start_s of the stage on, on its way to where the motion starts, if that is elsewhere. Without friction, by
+/// which edges that close over a shoulder, say, jam.
 std::unique_ptr<Scenario> standingPanels(const Case& one, const Case& whole, std::size_t garment) {
   Case standing = one;
   standing.supports.clear();
@@ -127,7 +127,7 @@ std::unique_ptr<Scenario> standingPanels(const Case& one, const Case& whole, std
   s->model->sewing_options.close_m_per_s = closing_m_per_s;
   const double move_s = whole.dressing.settle_s;
   if (!s->human || !(move_s > 0)) return s;
-  const Posture placed = postureOfSkin(*s->human);
+  const Posture placed = puttingOnPosture(whole, one.garments[0], *s->human);
   if (areSame(placed, s->motion->at(0))) return s;
   s->stage->dressed = placed;
   s->stage->settle_start_s = -move_s;

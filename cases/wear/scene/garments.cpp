@@ -51,15 +51,20 @@ double layerOf(const Case& c, const GarmentCase& worn) {
 /// Of arms that are out of the way of panels: from the sides, as in an A-pose.
 constexpr double aside_rad = 40.0 * rad_per_deg;
 
-/// Who is dressed, and how he stands.
+/// Who is dressed.
 struct Wearer {
   const Human* human = nullptr;  ///< null without a surface
-  Posture posture;
   std::optional<BodyForm> form;
 };
 
 GarmentMaking making(const Case& c, const GarmentCase& worn, const Wearer& w, std::span<const Worn> under) {
-  return {worn, fabricOf(c, worn), layerOf(c, worn), w.form ? &*w.form : nullptr, under, w.human, w.posture};
+  return {worn,
+          fabricOf(c, worn),
+          layerOf(c, worn),
+          w.form ? &*w.form : nullptr,
+          under,
+          w.human,
+          w.human ? puttingOnPosture(c, worn, *w.human) : Posture{}};
 }
 
 Garment makeGarment(const Case& c, const GarmentCase& worn, const Wearer& wearer, std::span<const Worn> under) {
@@ -133,10 +138,14 @@ Posture dressingPosture(const Case& c, const Human& human) {
   return armsAside(c) ? withArmsAside(human, posture, aside_rad) : posture;
 }
 
+Posture puttingOnPosture(const Case& c, const GarmentCase& worn, const Human& human) {
+  return kindOf(worn).as_scanned(worn) ? postureOfSkin(human) : dressingPosture(c, human);
+}
+
 std::vector<Garment> draftGarments(const Case& c, const Human* human, std::vector<std::string>* fit) {
   Wearer wearer;
   if (human) wearer.form.emplace(*human);
-  if (human && !human->shapes.empty()) wearer.human = human, wearer.posture = dressingPosture(c, *human);
+  if (human && !human->shapes.empty()) wearer.human = human;
   std::vector<Garment> garments;
   garments.reserve(c.garments.size());  // those above point to those below
   std::vector<Worn> under;

@@ -18,8 +18,10 @@ std::vector<Garment> draftGarments(const Case& c, const Human* human, std::vecto
 /// Whether the human is dressed with the arms further from the sides than they hang: panels are sewn around trunk or
 /// arms, none of the garments is drafted for hanging arms, and there is time for them to come down again.
 bool armsAside(const Case& c);
-/// In which posture all garments of a case are put on.
+/// In which posture all garments of a case are drafted and put on.
 Posture dressingPosture(const Case& c, const Human& human);
+/// In which one of them is: as dressingPosture, but for panels that were placed around the wearer as he was scanned.
+Posture puttingOnPosture(const Case& c, const GarmentCase& worn, const Human& human);
 /// Gives a garment the fabrics and fields that the case says of it.
 void addFabric(const Case& c, const GarmentCase& worn, Garment& garment);
 /// Of each garment that is a mesh from the start its triangles; `drafts`: of the same garments. Throws InputError with

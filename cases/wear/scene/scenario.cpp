@@ -186,9 +186,6 @@ void planTimes(const Case& c, Scenario& s, CaseStage& stage) {
   stage.settle_start_s = -settle;
 }
 
-/// A time to settle that is none.
-constexpr double kAtOnce_s = 1e-9;
-
 /// What is worn at the start, and in which posture the garments are put on.
 void putOnAtStart(const Case& c, const Only& only, Scenario& s) {
   if (!c.dressing.from.empty()) {
@@ -199,10 +196,7 @@ void putOnAtStart(const Case& c, const Only& only, Scenario& s) {
              std::any_of(c.garments.begin(), c.garments.end(),
                          [](const GarmentCase& worn) { return kindOf(worn).drafted || kindOf(worn).sewn; }) &&
              s.human) {
-    const Case& whole = only.of ? *only.of : c;
-    s.stage->dressed = dressingPosture(whole, *s.human);  // which the garments are drafted for
-    // Panels close around one posture: it is left when all garments are worn.
-    if (only.of && kindOf(c.garments[0]).sewn && armsAside(whole)) s.stage->settle_start_s = -kAtOnce_s;
+    s.stage->dressed = dressingPosture(only.of ? *only.of : c, *s.human);  // which the garments are drafted for
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "human/body/girths.hpp"
 #include "human/body/section.hpp"
 #include "tryon/pattern/flat/panel_geometry.hpp"
 
@@ -69,8 +70,8 @@ std::vector<PanelGirth> panelGirths(const FlatPattern& pattern, const std::vecto
   const struct {
     const char* name;
     double z, near_m;
-  } levels[] = {{"chest", form.origin(torso).z + 0.56 * trunk, kNearChest_m},
-                {"waist", form.origin(torso).z + 0.1 * trunk, kNear_m},
+  } levels[] = {{"chest", form.origin(torso).z + kChestShare * trunk, kNearChest_m},
+                {"waist", form.origin(torso).z + kWaistShare * trunk, kNear_m},
                 {"hip", 0.5 * (form.origin(thigh[0]).z + form.origin(thigh[1]).z), kNear_m}};
   for (const auto& level : levels) {
     if (!(high - low > 4 * kInside_m)) break;
@@ -89,7 +90,7 @@ std::vector<PanelGirth> panelGirths(const FlatPattern& pattern, const std::vecto
     };
     const int shank = skeleton.link("shank_" + name);
     if (shank >= 0) {
-      const double z = 0.75 * form.origin(thigh[side]).z + 0.25 * form.origin(shank).z;
+      const double z = (1 - kThighShare) * form.origin(thigh[side]).z + kThighShare * form.origin(shank).z;
       const double panels = widthOf(z, [&](const LaidPanel& p) { return isOf(p.panel, Part::leg); });
       const double body = tapeGirth(form.level(z, {thigh[side]}));
       if (panels > 0 && body > 0 && z < crotch) out.push_back({name + " thigh", z, body, panels});
@@ -107,7 +108,8 @@ std::vector<PanelGirth> panelGirths(const FlatPattern& pattern, const std::vecto
   return out;
 }
 
-void layAsPlaced(const FlatPattern& pattern, std::vector<LaidPanel>& front, std::vector<LaidPanel>& back) {
+void layAsPlaced(const FlatPattern& pattern, const Vec3& shift_m, std::vector<LaidPanel>& front,
+                 std::vector<LaidPanel>& back) {
   constexpr double kUpright = 0.3;
   for (std::size_t k = 0; k < pattern.panels.size(); ++k) {
     const Panel& panel = pattern.panels[k];
@@ -121,7 +123,8 @@ void layAsPlaced(const FlatPattern& pattern, std::vector<LaidPanel>& front, std:
     laid.panel = static_cast<int>(k);
     laid.right = {dot(at.along_x, level), dot(at.along_y, level)};
     laid.up = {at.along_x.z, at.along_y.z};
-    laid.at = {dot(at.origin_m, level), at.origin_m.z};
+    const Vec3 origin = at.origin_m + shift_m;
+    laid.at = {dot(origin, level), origin.z};
     for (const Vec2 x : flattened(panel.outline, 5e-4)) laid.outline.push_back(laid.of(x));
     (region->face == RegionFace::front ? front : back).push_back(std::move(laid));
   }

@@ -23,7 +23,8 @@ std::vector<PanelGirth> panelGirths(const FlatPattern& pattern, const std::vecto
                                     const std::vector<LaidPanel>& back, const StandingBody& form);
 
 /// Panels that stand upright by their own placements, as PlacedPanels has them: y is the height.
-void layAsPlaced(const FlatPattern& pattern, std::vector<LaidPanel>& front, std::vector<LaidPanel>& back);
+void layAsPlaced(const FlatPattern& pattern, const Vec3& shift_m, std::vector<LaidPanel>& front,
+                 std::vector<LaidPanel>& back);
 
 /// "at the hip (at 0.93 m) the wearer is 98.0 cm around and the panels 92.0 cm: 6.0 cm short; ..", the shortest first;
 /// empty where nothing is short.

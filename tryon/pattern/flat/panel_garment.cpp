@@ -316,7 +316,7 @@ std::string sideText(const FlatPattern& pattern, const std::vector<SeamPart>& si
   return out;
 }
 
-Garment panelGarment(const FlatPattern& pattern, const PanelCells& cells) {
+Garment panelGarment(const FlatPattern& pattern, const PanelCells& cells, std::vector<int>* panel_of) {
   Garment g;
   g.name = pattern.name;
   std::vector<std::vector<PanelTip>> tips(pattern.panels.size());
@@ -334,6 +334,7 @@ Garment panelGarment(const FlatPattern& pattern, const PanelCells& cells) {
                  " times; allowed: once, each piece as a panel of its own");
     try {
       made.push_back(addPanel(panel, tips[k], cells, g));
+      if (panel_of) panel_of->resize(g.patches.size(), static_cast<int>(k));
     } catch (const InputError& e) {
       reject("panels", k, "panel \"" + panel.name + "\": " + e.reason());
     }

@@ -18,8 +18,8 @@ struct PanelCells {
 /// "front 2". Seam k is seam k; after them come buttons of open ones, and cuts. Openings are sewn unless they are said
 /// to be open. Takes patterns that checkPattern lets pass. Throws InputError (key "panels[i]" or "seams[i]", names in
 /// the reason) where a panel has no placement, is cut more than once or cannot be cut on through a tip, or where the
-/// sides of a seam are too unequal or no border. Without a fabric.
-Garment panelGarment(const FlatPattern& pattern, const PanelCells& cells);
+/// sides of a seam are too unequal or no border. Without a fabric. `panel_of`: the panel that each patch is of.
+Garment panelGarment(const FlatPattern& pattern, const PanelCells& cells, std::vector<int>* panel_of = nullptr);
 
 /// "front.1 + yoke.0", as seams name their sides.
 std::string sideText(const FlatPattern& pattern, const std::vector<SeamPart>& side);

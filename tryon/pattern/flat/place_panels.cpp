@@ -8,6 +8,7 @@
 
 #include "core/contact/proximity.hpp"
 #include "core/error.hpp"
+#include "human/body/girths.hpp"
 #include "tryon/pattern/flat/body_tube.hpp"
 #include "tryon/pattern/flat/panel_geometry.hpp"
 #include "tryon/pattern/wrap.hpp"
@@ -221,7 +222,9 @@ class Placing {
       if (std::abs(std::abs(x.y - form_.medianY()) - y) < 0.03) top = std::max(top, x.z);
     return top > -1e300 ? top : form_.origin(head_).z;
   }
-  double waist() const { return form_.origin(torso_).z + 0.1 * (form_.origin(head_).z - form_.origin(torso_).z); }
+  double waist() const {
+    return form_.origin(torso_).z + kWaistShare * (form_.origin(head_).z - form_.origin(torso_).z);
+  }
 
   /// Moves a part to its own height; false where it has none.
   bool hang(LaidPart& part, const Half& other) {

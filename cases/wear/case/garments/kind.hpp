@@ -57,6 +57,8 @@ struct GarmentKind {
   /// What a user should know of how it fits the body, before it is put on.
   Names (*fit)(const GarmentMaking& making) = [](const GarmentMaking&) { return Names{}; };
   ArmsWanted (*arms)(const GarmentCase& g) = [](const GarmentCase&) { return ArmsWanted::any; };
+  /// Whether it is put on in the posture of the wearer's skin, as a scan was scanned, and not as he is dressed.
+  bool (*as_scanned)(const GarmentCase& g) = [](const GarmentCase&) { return false; };
   /// Reads the patches and edges of what stands in a file, for all that a case may name of them. Throws InputError
   /// where the file is not well. Null: it is not read.
   Garment (*look)(const GarmentCase& g) = nullptr;

@@ -58,6 +58,9 @@ const GarmentKind mesh_file_garment{
         [](const GarmentCase& g) {
           const auto& file = std::get<MeshGarment>(g.shape);
           const ClothMesh mesh = readClothMesh(file.path);
+          if (file.path.extension() == ".json" && (file.unit_m != 1 || file.uv_unit_m != 1))
+            throw InputError({file.path.string(), 0, file.unit_m != 1 ? "unit" : "uv_unit"},
+                             "has no meaning for a mesh that gambeson import wrote: it is in m; allowed: leave it out");
           if (file.rest == MeshRest::flat && mesh.uv.empty())
             throw InputError(
                 {file.path.string(), 0, "rest"},

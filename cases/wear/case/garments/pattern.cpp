@@ -83,8 +83,8 @@ FlatPattern patternOf(const GarmentCase& g) {
   return pattern;
 }
 
-Garment garmentOf(const GarmentCase& g, const FlatPattern& pattern) {
-  return panelGarment(pattern, {of(g).cell_m, of(g).degree});
+Garment garmentOf(const GarmentCase& g, const FlatPattern& pattern, std::vector<int>* panel_of = nullptr) {
+  return panelGarment(pattern, {of(g).cell_m, of(g).degree}, panel_of);
 }
 
 /// Its patches and edges, wherever they will stand.
@@ -104,13 +104,17 @@ Garment makePanels(const GarmentMaking& m) {
                        "stand around a human by their regions, and the case has none; allowed: a placement for each");
     const PlacedPanels placed = placePanels(pattern, StandingBody(*m.human, m.posture));
     for (std::size_t k = 0; k < pattern.panels.size(); ++k) pattern.panels[k].placement = placed.flat[k];
-    Garment garment = garmentOf(m.worn, pattern);
+    std::vector<int> panel_of;
+    Garment garment = garmentOf(m.worn, pattern, &panel_of);
     garment.placed.resize(garment.patches.size());
-    for (std::size_t k = 0; k < garment.patches.size(); ++k)
+    for (std::size_t k = 0; k < garment.patches.size(); ++k) {
+      const auto panel = static_cast<std::size_t>(panel_of[k]);
+      const PanelPlace& flat = placed.flat[panel];
       for (const Vec3& x : garment.patches[k].points) {
-        const Vec3 r = x - placed.flat[k].origin_m;
-        garment.placed[k].push_back(placed.bent[k]({dot(r, placed.flat[k].along_x), dot(r, placed.flat[k].along_y)}));
+        const Vec3 r = x - flat.origin_m;
+        garment.placed[k].push_back(placed.bent[panel]({dot(r, flat.along_x), dot(r, flat.along_y)}));
       }
+    }
     return garment;
   });
 }
@@ -127,7 +131,7 @@ std::vector<std::string> fitOf(const GarmentMaking& m) {
       const PlacedPanels placed = placePanels(pattern, StandingBody(*m.human, m.posture));
       front = placed.front, back = placed.back;
     } else {
-      layAsPlaced(pattern, front, back);
+      layAsPlaced(pattern, m.worn.position_m, front, back);
       for (const Panel& panel : pattern.panels) {
         const PanelPlace& at = *panel.placement;
         const PanelDepth d = depthInBody(
@@ -166,6 +170,7 @@ const GarmentKind pattern_garment{
           const FlatPattern pattern = patternOf(g);
           return byRegions(pattern) && coversArms(pattern) ? ArmsWanted::aside : ArmsWanted::any;
         },
+    .as_scanned = [](const GarmentCase& g) { return !byRegions(patternOf(g)); },
     .look = lookAt,
     .files = [](GarmentCase& g, const GarmentKind::Take& take) { take(std::get<PatternGarment>(g.shape).path); },
 };
