@@ -103,7 +103,7 @@ void sewCone(double dart, Vec2 tip, double lean, double cell_m) {
   g.fabric = fabric;
   ModelOptions o;
   o.self_contact = false;
-  Motion m(g, {{0, 0, 0}, 3}, {}, o);
+  shapes::Motion m(g, {{0, 0, 0}, 3}, {}, o);
   // Near the cone: each piece by its own angles, on beyond its sides.
   const NurbsCurve& cut = g.sewn_seams.back().a[0].curve;
   // Parameters run along the dart.
