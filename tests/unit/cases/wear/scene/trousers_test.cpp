@@ -85,7 +85,7 @@ TEST(TrousersScene, AnObstacleNeedsWhoStepsOverIt) {
     }
     return "accepted";
   };
-  EXPECT_EQ(refused({R"(human.motion={"stand": {"duration": "3 s"}})"}), "obstacles[0].hurdle");
+  EXPECT_EQ(refused({R"(human.motion={"stand": {"duration": "4 s"}})"}), "obstacles[0].hurdle");
   EXPECT_EQ(refused({"human.motion.step_over.depth=0"}), "obstacles[0].hurdle");
   EXPECT_EQ(refused({R"(garment.trousers.hem="0.9 m")"}), "garment.trousers.hem");
   EXPECT_EQ(refused({"obstacles=[]"}), "accepted");
