@@ -238,7 +238,10 @@ ImportedPattern importPattern(const std::filesystem::path& file, const ImportCho
   const char* const read =
       "read are specification.json of GarmentCode, DXF-AAMA or ASTM D6673 (.dxf), STEP, IGES and .brep surfaces "
       "(.step, .stp, .igs, .iges, .brep), meshes (.obj, .ply), and what gambeson import wrote";
-  if (ending != ".json") throw InputError({file.string(), 0, ""}, std::string("is of no format that is read; ") + read);
+  if (ending != ".json") {
+    if (!std::filesystem::exists(file)) throw InputError({file.string(), 0, ""}, "no such file");
+    throw InputError({file.string(), 0, ""}, std::string("is of no format that is read; ") + read);
+  }
   const JsonNode root = readJson(file, {.bytes = kPatternBytes});
   if (!choices.size.empty())
     throw InputError({"command line", 0, "--size"}, "has no meaning for " + file.string() + "; only DXF has sizes");

@@ -142,7 +142,11 @@ class Maker {
   void addDeforming(std::size_t o) {
     const auto& triangles = std::get<TriangleMesh>(s_.model->obstacles[o].shape).triangles;
     const int body = s_.body_of_obstacle[o];
-    const auto at = [&](double t) { return deformedVertices(*s_.model, *s_.stage, t)[o]; };
+    const auto at = [&](double t) {
+      const DeformedVertices all = deformedVertices(*s_.model, *s_.stage, t);
+      const std::span<const Vec3> x = all[o];
+      return std::vector<Vec3>(x.begin(), x.end());
+    };
     const bool linear = body < 0 && s_.human->skin->bends.empty() && times()[0] > -rounding;
     if (linear && o_.skins) {
       const SkinnedMesh skin = skinnedOf(*s_.human->skin, triangles);

@@ -58,7 +58,11 @@ CadShape facesOf(const RecordingLayout& layout, const Frame& frame, const char* 
 /// "walk.glb: 42 frames, 8.1 MB".
 void writeGlb(const Scenario& s, const RecordingReader& recording, AnimationOptions how,
               const std::filesystem::path& file) {
+  constexpr double kSkin_m = 1e-3;  // single precision and rounding of weights stay far below
   const Animation animation = animationOf(s, recording, how);
+  if (!(animation.skin_error_m <= kSkin_m))
+    throw RunError(fmt::format("the body of the animation would be {:.2g} mm off that of the run",
+                               1e3 * animation.skin_error_m));
   const Glb glb = encodeGlb(animation.scene);
   writeOwnFile(file, glb.bytes);
   fmt::print("{}: {} frames, {:.1f} MB, cloth within {:.2g} mm of the recording", file.string(),

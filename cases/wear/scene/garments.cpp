@@ -89,6 +89,7 @@ Garment makeGarment(const Case& c, const GarmentCase& worn, const Wearer& wearer
 /// What messages call a wearer.
 std::string wearerOf(const HumanCase& h) {
   if (!h.manikin.empty()) return h.manikin;
+  if (h.measures) return "this manikin";
   if (h.character) return h.character->file.filename().string();
   return h.segments.empty() ? h.urdf.filename().string() : "the human between these markers";
 }
