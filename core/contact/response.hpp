@@ -256,10 +256,10 @@ void layerUnder(double last_Pa, double dt_s, double density_kg_per_m2, const Con
 /// Samples that only held points carry get no impulse, and do not count in the residual: nothing can move them.
 ///
 /// `hold`, where there is one, stands in the place of M^-1: what it holds is part of the same problem, whose rows can
-/// no longer be taken one by one; all take a step along the gradient at once there. Impulses may
-/// then be thousands of times what stops the cloth by itself (a ring that takes no stretch, on a body); a solve is done
-/// at 2e-4 of the largest where that is more than the tolerance. Without such a hold at 1e-6, and ten tolerances at
-/// most.
+/// no longer be taken one by one; all take a step along the gradient at once there, but for a ProjectingHold, with
+/// which sweeps alternate. Impulses may then be thousands of times what stops the cloth by itself (a ring that takes no
+/// stretch, on a body); a solve is done at 2e-4 of the largest where that is more than the tolerance. Without such a
+/// hold at 1e-6, and ten tolerances at most.
 ///
 /// Friction that depends on the motion (FrictionLaw) is that of the velocities that the solve ends with: rows that
 /// stick may take up to mu_s, those that slip take mu(v) and viscosity at the end speed, found in rounds of the same

@@ -5,8 +5,8 @@
 ///   (M + h D) a = F - C^T lambda,  C a = 0,   v(n+1/2) = v + dt/2 a,  C v(n+1/2) = r
 /// is velocity Verlet of the constrained system, symplectic as before. Its frequencies interlace those of the unsewn
 /// one (Cauchy), so that no stable step is shorter. Contacts see W - W C^T (C W C^T)^-1 C W in the place of W = M^-1
-/// (SewnHold): contacts and seams are one problem. Rigid impact zones, which come after all contacts, have the last
-/// word where they meet a seam; what they part closes as an open seam does.
+/// (SewnHold): contacts and seams are one problem, unless seams are far open (seamsAreOpen). Rigid impact zones, which
+/// come after all contacts, have the last word where they meet a seam; what they part closes as an open seam does.
 
 #include "core/contact/projecting_hold.hpp"
 #include "core/motion/model.hpp"
