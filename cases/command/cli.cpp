@@ -89,15 +89,16 @@ int fabricCommand(FabricArguments& a, std::ostream& out) {
   return runFabric(o, out);
 }
 
-/// Builds what a run of the case starts from: a case that is valid can be run.
-void checkBuild(const AnyCase& any) {
+/// Builds what a run of the case starts from: a case that is valid can be run. Returns what there is to say of it.
+std::vector<std::string> checkBuild(const AnyCase& any) {
   useThreads(0);
   if (const auto* structure = std::get_if<StructureCase>(&any))
     checkStructure(*structure);
   else if (const auto* cell = std::get_if<CellCase>(&any))
     checkCell(*cell);
   else
-    checkRun(std::get<Case>(any));
+    return checkRun(std::get<Case>(any));
+  return {};
 }
 
 /// Numbers of the case as its file and the command line have them.
@@ -120,9 +121,13 @@ int check(const CheckArguments& a, std::ostream& out) {
   if (a.overrides.empty() && !a.full && checkFile(a.file, out)) return done;
   const AnyCase any = readAnyCase(a.file, a.overrides);
   for (const InputError& unusual : unusualOf(any, a)) sayNote(unusual.what());
-  checkBuild(any);
-  out << (a.full ? std::visit([](const auto& c) { return writeCase(c); }, any)
-                 : fmt::format("{}: valid\n", a.file.string()));
+  const std::vector<std::string> lines = checkBuild(any);
+  if (a.full) {
+    out << std::visit([](const auto& c) { return writeCase(c); }, any);
+    return done;
+  }
+  out << a.file.string() << ": valid\n";
+  for (const std::string& line : lines) out << "  " << messageText(line) << "\n";
   return done;
 }
 

@@ -1,6 +1,12 @@
 /// Detail of fields.hpp: the table of the human and its motion.
 
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cases/input/mistakes.hpp"
 #include "cases/input/table.hpp"
+#include "cases/input/typed.hpp"
 #include "cases/wear/case/case.hpp"
 #include "cases/wear/case/fields.hpp"
 #include "cases/wear/case/fields_map.hpp"
@@ -47,6 +53,22 @@ Object characterTable() {
       .build();
 }
 
+/// Says every measure that goes with no body, all in the units that they were typed in.
+void checkMeasures(const Entry& p, const ManikinMeasures& m) {
+  const auto typed = [&](const std::string& key, double si) { return inUnitOf(p, key, si, key == "mass" ? "kg" : "m"); };
+  Mistakes mistakes;
+  for (const OddMeasure& o : oddMeasures(m))
+    mistakes.without([&] {
+      const bool mass = o.key == "mass";
+      const double per = mass ? 10 : 1000;  // tenths of a kilogram, millimetres, within the range
+      p.failAt(o.key, fmt::format("{} goes with no body of {}{}; allowed: {} to {}", typed(o.key, o.value),
+                                  typed("stature", m.stature_m), mass ? "" : " and " + typed("mass", m.mass_kg),
+                                  typed(o.key, std::ceil(per * o.least) / per),
+                                  typed(o.key, std::floor(per * o.most) / per)));
+    });
+  mistakes.say();
+}
+
 Object measuresTable() {
   using M = ManikinMeasures;
   return Table<M>("Manikin by measures")
@@ -65,6 +87,7 @@ Object measuresTable() {
       .defaultsTo("likewise")
       .number("inseam", &M::inseam_m, "m", between(0.3, 1.5), "height of the crotch")
       .defaultsTo("that of people of that stature and mass")
+      .check(checkMeasures)
       .build();
 }
 

@@ -292,6 +292,12 @@ TEST(ScanMalformed, ABodyCutOffAboveItsFeetNamesThem) {
   refuses(without(aPose().mesh, [](const Vec3& x) { return x.y < 110; }), "feet", "cut off above its feet");
 }
 
+TEST(ScanMalformed, ABodyWithoutAHeadNamesTheNeck) {
+  ScanOptions open;
+  open.close_holes = 0.5;
+  refuses(without(aPose().mesh, [](const Vec3& x) { return x.y > 1500; }), "neck", "is the head cut off", open);
+}
+
 TEST(ScanMalformed, ALimbOfALengthThatNobodyHasNamesIt) {
   Landmarks marks;
   marks.stature_m = 1.75;
