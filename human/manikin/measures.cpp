@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "human/body/section.hpp"
 #include "human/manikin/manikin.hpp"
+#include "human/manikin/odd_measures.hpp"
 #include "human/manikin/person.hpp"
 #include "human/manikin/regressions.hpp"
 

@@ -20,16 +20,6 @@ struct ManikinMeasures {
   std::optional<double> inseam_m;                 ///< height of the crotch
 };
 
-/// A measure that goes with no body of the stature and mass given, and the range of those that do [m, kg].
-struct OddMeasure {
-  std::string key;  ///< mass, inseam, chest, waist or hip
-  double value = 0, least = 0, most = 0;
-};
-
-/// Measures that contradict each other: a mass whose body-mass index is outside 14 to 50 kg/m² (alone: then regressions
-/// say nothing of the others), a girth further from its regression than 6 standard errors, an inseam further than 4.
-std::vector<OddMeasure> oddMeasures(const ManikinMeasures& measures);
-
 /// A girth that was asked for, and what the made body has.
 struct MadeGirth {
   std::string name;
@@ -46,7 +36,8 @@ struct MeasuresReport {
 /// both semi-axes of its ellipsoid alike, the chest's lateral one up to where the arms hang; how near the made body
 /// comes is measured on its sections. The range of validity is that of the people measured (1st to 99th percentile of
 /// stature and mass); beyond it a note tells that the regressions are extrapolated. Throws InputError with the key of
-/// the first of the odd measures.
+/// the measure where measures contradict each other: body-mass index outside 14 to 50 kg/m², a girth or an inseam
+/// further from the regression than 6 (inseam: 4) standard errors.
 Human makeManikin(const ManikinMeasures& measures, MeasuresReport* report = nullptr);
 
 /// Girth by the tape [m] of links' shapes where a horizontal plane cuts them, in the standing posture for feet at 0.

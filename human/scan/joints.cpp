@@ -22,28 +22,28 @@ constexpr double kShoulderBelowAcromion_m = 0.032, kShoulderInside_m = 0.024;
 /// The crotch of a skin lies this far below the hip joints. A hip's height is moved by a part of what the crotch is
 /// higher or lower than expected: both vary about their regressions by 25 mm, not wholly together.
 constexpr double kHipAboveCrotch = 0.048, kHipByCrotch = 0.7;
-/// Hip joints by Hara et al. 2016 (doi 10.1038/srep37707: tomography of 157 people, 120 of them grown up; said to be off
-/// by 4 to 5 mm in each direction), of the leg's length L from anterior superior iliac spine to medial malleolus: 8 mm +
-/// 0.086 L from the median plane, 9 mm + 0.078 L below the spines. The paper's table was not read here; three programs of
-/// others have these numbers, and for L = 0.88 m they give 84 and 78 mm, where the male of Rajagopal et al. 2016 has 77
-/// and 78 mm, Bell et al. 1989 (0.36 of 240 mm between the spines) 86 mm and Harrington et al. 2007 (0.28 of 150 mm of
-/// depth + 0.16 of that width + 8 mm) 88 mm. Rigs of characters have 69 mm (SMPL) to 110 mm (MakeHuman).
+/// Hip joints by Hara et al. 2016 (doi 10.1038/srep37707: tomography of 157 people, 120 of them grown up; said to be
+/// off by 4 to 5 mm in each direction), of the leg's length L from anterior superior iliac spine to medial malleolus: 8
+/// mm + 0.086 L from the median plane, 9 mm + 0.078 L below the spines. The paper's table was not read here; three
+/// programs of others have these numbers, and for L = 0.88 m they give 84 and 78 mm, where the male of Rajagopal et al.
+/// 2016 has 77 and 78 mm, Bell et al. 1989 (0.36 of 240 mm between the spines) 86 mm and Harrington et al. 2007 (0.28
+/// of 150 mm of depth + 0.16 of that width + 8 mm) 88 mm. Rigs of characters have 69 mm (SMPL) to 110 mm (MakeHuman).
 constexpr double kHaraLateral_m = 0.008, kHaraLateral = 0.086, kHaraBelow_m = 0.009, kHaraBelow = 0.078;
 /// Hip, knee and ankle of most people lie on a line seen from ahead, so that knee and ankle show the hip too, within 2
 /// degrees (16 mm). It has this part in a hip's place across, for bodies that are not built as people are.
 constexpr double kHipByAxis = 0.33;
-constexpr double kHipOfDepth = 0.525;  ///< of the trunk's depth there, from behind
-/// A leg is thinnest 0.031 statures below its knee, if often over a length or twice: the mean of its levels, each with the
-/// weight exp(-(girth / least - 1) / 0.01 - (how far from where it is expected / 0.02 statures)²). Half of the knee's
-/// height is by this, half by the regressions.
+constexpr double kHipOfDepth = 0.53;  ///< of the trunk's depth there, from behind
+/// A leg is thinnest 0.031 statures below its knee, if often over a length or twice: the mean of its levels, each with
+/// the weight exp(-(girth / least - 1) / 0.01 - (how far from where it is expected / 0.02 statures)²). Half of the
+/// knee's height is by this, half by the regressions.
 constexpr double kThinBelowKnee = 0.031, kThinner = 0.01, kThinSpread = 0.02, kKneeByThinnest = 0.5;
 constexpr double kLumbarAboveHip = 0.058, kLumbarBehindCentre = 0.0225;
+constexpr double kShoulderBelowNeck = 0.066,
+                 kShoulderByNeck = 0.3;  ///< below where it is thinnest; its part in the height
 constexpr double kNeckBelowThinnest = 0.004, kNeckBehindCentre = 0.0095;
 constexpr double kAnkleOfFoot = 0.224;    ///< share of the foot's length from the heel
 constexpr double kShoulderAhead = 0.004;  ///< of the upper arm's line
 constexpr double kElbowOfArm = 0.485;     ///< from wrist to shoulder
-
-constexpr double kWristByHand = 0.3;
 
 /// Lengths between joints that people have, in statures: 1st to 99th percentile of ANSUR II with a quarter more on
 /// either side, for what is measured on skins, and for characters.
@@ -65,13 +65,6 @@ Line lineThrough(const LimbLine& limb, double from, double to) {
     (i < n / 2 ? first : second) += x / (n / 2);
   }
   return {0.5 * (first + second), normalized(second - first)};
-}
-
-/// How far along a limb it is this far from its tip; its end where it does not reach that far.
-double farFrom(const LimbLine& limb, const Vec3& tip, double distance) {
-  for (std::size_t i = 0; i < limb.size(); ++i)
-    if (norm(limb.centre[i] - tip) >= distance) return limb.along[i];
-  return limb.along.back();
 }
 
 /// The height where a leg is thinnest, near to where that is expected.
@@ -115,6 +108,9 @@ std::map<std::string, Vec3> jointsOf(const TriangleMesh& body, const Landmarks& 
   };
   const CutLoop hips = trunkAt(hip_z);
   const double hip_x = hips.low(0) + kHipOfDepth * (hips.high(0) - hips.low(0));
+  const double by_acromion = mean("acromialheight") - kShoulderBelowAcromion_m,
+               by_neck = l.neck_height_m - kShoulderBelowNeck * H,
+               shoulder_z = by_acromion + kShoulderByNeck * (by_neck - by_acromion);
   for (int side = 0; side < 2; ++side) {
     const auto s = static_cast<std::size_t>(side);
     const std::string name = side == 0 ? "_right" : "_left";
@@ -139,14 +135,12 @@ std::map<std::string, Vec3> jointsOf(const TriangleMesh& body, const Landmarks& 
     at["toes" + name] = l.ball[s];
 
     const LimbLine& arm = l.arm[s];
-    // Where an arm is thinnest is flat on a lean one, and a hand's length is that of a hand that is open.
-    const double end = arm.along.back(), by_hand = farFrom(arm, l.hand_tip[s], mean("handlength")),
-                 wrist = l.wrist[s] + kWristByHand * (by_hand - l.wrist[s]);
+    const double end = arm.along.back(), wrist = l.wrist[s];
     // The upper arm's line, from its middle part, on to where shoulders lie.
     const double middle = 0.5 * (wrist + end);
     Line upper = lineThrough(arm, middle + 0.15 * (end - middle), middle + 0.75 * (end - middle));
     const Vec3 expected{upper.through.x, l.crotch.y + sign * (0.5 * mean("biacromialbreadth") - kShoulderInside_m),
-                        mean("acromialheight") - kShoulderBelowAcromion_m};
+                        shoulder_z};
     Vec3 shoulder = upper.nearest(expected);
     // What is left across the line is between the arm's and the joint's own place: half of it.
     const Vec3 across = expected - shoulder;

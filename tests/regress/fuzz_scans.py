@@ -9,7 +9,7 @@ CONES = [((0.06, 0.95, 0), (0.06, 1.30, 0), 0.115, 0.115), ((0.0, 1.30, 0), (0.1
          ((0, 1.57, 0.01), (0, 1.65, 0.01), 0.085, 0.09), ((0.095, 0.90, 0), (0.115, 0.49, 0), 0.085, 0.058),
          ((0.115, 0.49, 0), (0.135, 0.09, -0.01), 0.058, 0.042), ((0.135, 0.04, -0.04), (0.14, 0.035, 0.15), 0.04, 0.035),
          ((0.17, 1.38, 0), (0.38, 1.17, 0), 0.06, 0.045), ((0.38, 1.17, 0), (0.56, 0.99, 0), 0.045, 0.033), ((0.56, 0.99, 0), (0.67, 0.88, 0), 0.033, 0.03)]
-CELL = 0.03
+CELL = 0.029  # at 0.03 a cell of an arm is cut twice
 
 
 def depth(x, y, z):
@@ -26,7 +26,8 @@ def depth(x, y, z):
 @functools.cache
 def surface():
     """Vertices and triangles of the body by surface nets: a vertex in each cell of a grid through which it goes."""
-    n, low = (50, 62, 13), (-0.735, -0.045, -0.165)
+    n = (52, 65, 14)
+    low = (-CELL * (n[0] - 1) / 2, -0.045, -0.165)
     at = lambda k, i: low[k] + CELL * i
     inside = {(i, j, k): depth(at(0, i), at(1, j), at(2, k)) for i in range(n[0]) for j in range(n[1]) for k in range(n[2])}
     vertices, number = [], {}

@@ -50,9 +50,9 @@ Affine affineBetween(const std::vector<Vec3>& x, const std::vector<Vec3>& y) {
   return f;
 }
 
-std::map<std::string, Vec3> errorsOf(const test::KnownScan& s, double scale = 1) {
+std::map<std::string, Vec3> errorsOf(const test::KnownScan& s) {
   RepairReport report;
-  const TriangleMesh raw = repaired(s.mesh, 0.25, "scan", report);
+  const TriangleMesh raw = repaired(s.mesh, ScanOptions{}.close_holes, "scan", report);
   std::vector<std::string> notes;
   const TriangleMesh body = upright(raw, {}, "scan", notes);
   const Affine to = affineBetween(raw.vertices, body.vertices);
@@ -62,7 +62,7 @@ std::map<std::string, Vec3> errorsOf(const test::KnownScan& s, double scale = 1)
   std::map<std::string, Vec3> errors;
   for (const auto& [link, at] : s.joints) {
     if (!joints.contains(link)) continue;
-    Vec3 e = scale * (joints.at(link) - to(at));
+    Vec3 e = joints.at(link) - to(at);
     if (link.ends_with("_right")) e.y = -e.y;
     errors[link] = e;
   }
@@ -109,7 +109,8 @@ int main(int argc, char** argv) {
         ScanReport report;
         scanOf(s.mesh, {}, &report);
         for (const ScanGirth& g : report.girths)
-          if (s.girths.contains(g.name)) fmt::print(" {} {:+.2f} %", g.name, 100 * (g.scan_m / s.girths.at(g.name) - 1));
+          if (s.girths.contains(g.name))
+            fmt::print(" {} {:+.2f} %", g.name, 100 * (g.scan_m / s.girths.at(g.name) - 1));
         fmt::print("\n");
       } catch (const InputError& e) {
         fmt::print(" {}\n", e.what());
@@ -126,7 +127,8 @@ int main(int argc, char** argv) {
       const auto errors = errorsOf(s);
       for (const char* link : kLinks) {
         const Vec3 e = 100 * worse(errors, link);
-        fmt::print("{:>20}", parts ? fmt::format("{:.1f} ({:.1f} {:.1f} {:.1f})", norm(e), e.x, e.y, e.z) : fmt::format("{:.1f}", norm(e)));
+        fmt::print("{:>20}", parts ? fmt::format("{:.1f} ({:.1f} {:.1f} {:.1f})", norm(e), e.x, e.y, e.z)
+                                   : fmt::format("{:.1f}", norm(e)));
       }
       fmt::print("\n");
     } catch (const InputError& e) {
@@ -141,12 +143,20 @@ int main(int argc, char** argv) {
     if (!all) continue;
     row("  2 mm noise", test::noisy(s, 0.002), false);
     row("  5 % fewer", test::decimated(s, 0.05), false);
-    row("  turned, inches", test::moved(s, [](const Vec3& x) {
-          const double c = std::cos(0.5), d = std::sin(0.5);
-          return Vec3{c * x.x - d * x.y, -x.z, d * x.x + c * x.y} / 0.0254;
-        }), false);
+    row("  turned, inches",
+        test::moved(s,
+                    [](const Vec3& x) {
+                      const double c = std::cos(0.5), d = std::sin(0.5);
+                      return Vec3{c * x.x - d * x.y, -x.z, d * x.x + c * x.y} / 0.0254;
+                    }),
+        false);
     row("  1.1 times", test::moved(s, [](const Vec3& x) { return 1.1 * x; }), false);
-    row("  left 2 % wider", test::moved(s, [](const Vec3& x) { return Vec3{x.x, x.y > 0 ? 1.02 * x.y : x.y, x.z}; }), false);
+    row("  left 2 % wider",
+        test::moved(s,
+                    [](const Vec3& x) {
+                      return Vec3{x.x, x.y > 0 ? 1.02 * x.y : x.y, x.z};
+                    }),
+        false);
     row("  holes at feet", test::without(s, [&](const Vec3& x) { return x.z < low + 0.006 * H; }), false);
     row("  head cut", test::without(s, [&](const Vec3& x) { return x.z > low + 0.90 * H; }), false);
   }

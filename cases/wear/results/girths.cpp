@@ -1,4 +1,4 @@
-/// Detail of measure.hpp: girths of the body and of what is worn over it, and the ease between them.
+#include "cases/wear/results/girths.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 
-#include "cases/wear/results/measure.hpp"
 #include "cases/wear/scene/placed_bodies.hpp"
 #include "human/body/girths.hpp"
 #include "human/body/section.hpp"

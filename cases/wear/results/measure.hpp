@@ -354,8 +354,7 @@ void measureCloth(const Scenario& scenario, const RecordingReader& recording, Me
 /// Of fit.cpp: cost seconds; after the frames.
 void measureStretch(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 void measureFalls(const Scenario& scenario, const RecordingReader& recording, Measured& out);
-/// Of girths.cpp: those of the human at a time, and of cloth whose samples are at `x`; none without a human.
-std::vector<GirthMeasure> girthsAt(const Scenario& scenario, const std::vector<Vec3>& x, double time_s);
+/// Of girths.cpp.
 void measureGirths(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 /// Of garment_order.cpp: costs seconds.
 void measureGarmentOrder(const Scenario& scenario, const RecordingReader& recording, Measured& out);

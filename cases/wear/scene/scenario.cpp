@@ -251,7 +251,6 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, const Only& only) {
   const std::vector<std::string> unusual =
       unusualNumbers(schema::caseTable(), schema::writeObject(schema::caseTable(), &written));
   s->notes.insert(s->notes.begin(), unusual.begin(), unusual.end());
-  s->unusual_notes = unusual.size();
   putOnAtStart(c, only, *s);
   if (isProjected(c)) shrinkBody(c, at_start, *s);
   return std::move(s);

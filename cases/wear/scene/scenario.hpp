@@ -59,7 +59,6 @@ struct Scenario {
   std::vector<ContactGroup> contact_groups;
   std::vector<int> contact_group;     ///< of the samples
   std::vector<std::string> notes;     ///< what a user should know of the case before its results
-  std::size_t unusual_notes = 0;      ///< so many of them, the first, are of numbers that are not usual
   std::vector<Vec3> start_m;          ///< where the free points start; empty: where they are drafted
   std::vector<Vec3> shift_m;          ///< of the free points at the start, from the rest shapes; empty: none
   std::vector<double> start_history;  ///< what laws remember at the start; empty: nothing, they are new

@@ -18,8 +18,8 @@
 namespace gambeson::test {
 
 struct ScanBody {
-  TriangleMesh mesh;                   ///< [mm], y up, facing z
-  std::map<std::string, Vec3> joints;  ///< by link [m]; x forward, y left, z up, the lowest point at 0
+  TriangleMesh mesh;                     ///< [mm], y up, facing z
+  std::map<std::string, Vec3> joints;    ///< by link [m]; x forward, y left, z up, the lowest point at 0
   std::map<std::string, double> girths;  ///< by zone [m], in planes through the known joints
 
   Vec3 file(const Vec3& x) const { return 1000 * Vec3{x.y, x.z, x.x}; }

@@ -89,7 +89,8 @@ TEST(WearerCase, CheckSaysTheGirthsOfAScanAndTheEaseOfWhatItWears) {
     return found;
   };
   const auto scanned = numbers(R"(scan man\.obj: hip ([0-9.]+) cm as scanned, ([0-9.]+) cm standing)"),
-             worn = numbers(R"(girth of the hip: body ([0-9.]+) cm; garment ([0-9.]+) cm, ease ([0-9.]+) cm \(([0-9.]+) %\))"),
+             worn = numbers(
+                 R"(girth of the hip: body ([0-9.]+) cm; garment ([0-9.]+) cm, ease ([0-9.]+) cm \(([0-9.]+) %\))"),
              bare = numbers(R"(girth of the chest: body ([0-9.]+) cm)");
   ASSERT_EQ(scanned.size(), 2u);
   ASSERT_EQ(worn.size(), 4u);
