@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kWeld = 5e-6;                       ///< of the mesh's size
 constexpr double kNoPart = 0.01, kSecondBody = 0.3;  ///< of the largest part's area
-constexpr double kFlat = 0.015;  ///< rims that leave their plane by at most this share of their length are flat
+constexpr double kFlat = 0.03;  ///< rims that leave their plane by at most this share of their length are flat
 constexpr double kFlatLonger = 2;
 constexpr double kDebris = 0.05;  ///< parts in between are named, but left out
 
