@@ -2,7 +2,6 @@
 
 import functools
 import math
-import struct
 
 #: Limbs as cones with round ends: from, to (of the left side where x > 0), radii. x to the left, y up, z forward [m].
 CONES = [((0.06, 0.95, 0), (0.06, 1.30, 0), 0.115, 0.115), ((0.0, 1.30, 0), (0.17, 1.38, 0), 0.09, 0.06), ((0, 1.35, 0), (0, 1.52, 0), 0.06, 0.055),
@@ -72,9 +71,9 @@ def obj(vertices, triangles, per_m=1000):
 
 
 def ply(vertices, triangles):
-    head = (f"ply\nformat binary_little_endian 1.0\nelement vertex {len(vertices)}\nproperty float x\nproperty float y\nproperty float z\n"
+    head = (f"ply\nformat ascii 1.0\nelement vertex {len(vertices)}\nproperty float x\nproperty float y\nproperty float z\n"
             f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n")
-    return head.encode() + b"".join(struct.pack("<3f", *(1000 * c for c in v)) for v in vertices) + b"".join(struct.pack("<B3i", 3, *t) for t in triangles)
+    return (head + "".join("%.5g %.5g %.5g\n" % tuple(1000 * c for c in v) for v in vertices) + "".join("3 %d %d %d\n" % t for t in triangles)).encode()
 
 
 def turned(v, axis, angle):
