@@ -400,11 +400,12 @@ TEST(RealScans, MakeHumansBaseMeshHasTheJointsOfItsRig) {
   Vec3 shift;
   for (const Vec3& x : h.skin->rest.vertices) shift += x / static_cast<double>(h.skin->rest.vertices.size());
   for (const Vec3& x : known.skin->rest.vertices) shift -= x / static_cast<double>(h.skin->rest.vertices.size());
-  for (const char* link : {"shank_left", "foot_left", "upper_arm_left", "forearm_left", "hand_left", "torso", "head"}) {
+  for (const char* link :
+       {"thigh_left", "shank_left", "foot_left", "upper_arm_left", "forearm_left", "hand_left", "torso", "head"}) {
     const auto at = [&](const Human& human) {
       return human.skin->bind[static_cast<std::size_t>(human.skeleton.link(link))].origin;
     };
-    EXPECT_LT(norm(at(h) - at(known) - shift), 0.021) << link;
+    EXPECT_LT(norm(at(h) - at(known) - shift), link == std::string("thigh_left") ? 0.033 : 0.021) << link;
   }
 }
 
