@@ -89,15 +89,16 @@ int fabricCommand(FabricArguments& a, std::ostream& out) {
   return runFabric(o, out);
 }
 
-/// Builds what a run of the case starts from: a case that is valid can be run.
-void checkBuild(const AnyCase& any) {
+/// Builds what a run of the case starts from: a case that is valid can be run. Returns what there is to say of it.
+std::vector<std::string> checkBuild(const AnyCase& any) {
   useThreads(0);
   if (const auto* structure = std::get_if<StructureCase>(&any))
     checkStructure(*structure);
   else if (const auto* cell = std::get_if<CellCase>(&any))
     checkCell(*cell);
   else
-    checkRun(std::get<Case>(any));
+    return checkRun(std::get<Case>(any));
+  return {};
 }
 
 /// Numbers of the case as its file and the command line have them.
@@ -120,18 +121,23 @@ int check(const CheckArguments& a, std::ostream& out) {
   if (a.overrides.empty() && !a.full && checkFile(a.file, out)) return done;
   const AnyCase any = readAnyCase(a.file, a.overrides);
   for (const InputError& unusual : unusualOf(any, a)) sayNote(unusual.what());
-  checkBuild(any);
-  out << (a.full ? std::visit([](const auto& c) { return writeCase(c); }, any)
-                 : fmt::format("{}: valid\n", a.file.string()));
+  const std::vector<std::string> lines = checkBuild(any);
+  if (a.full) {
+    out << std::visit([](const auto& c) { return writeCase(c); }, any);
+    return done;
+  }
+  out << a.file.string() << ": valid\n";
+  for (const std::string& line : lines) out << "  " << messageText(line) << "\n";
   return done;
 }
 
 int draft(const DraftArguments& a, std::ostream& out) {
   using Endings = std::vector<std::string>;
   if (a.flat && a.obj) throw InputError({"command line", 0, "--flat"}, "excludes --obj; give only one of them");
-  const std::string ending =
-      checkEnding(a.garment_file, "--output",
-                  a.flat ? Endings{".dxf", ".svg", ".json"} : a.obj ? Endings{".obj"} : Endings{".json", ".obj"});
+  const std::string ending = checkEnding(a.garment_file, "--output",
+                                         a.flat  ? Endings{".dxf", ".svg", ".json"}
+                                         : a.obj ? Endings{".obj"}
+                                                 : Endings{".json", ".obj"});
   const AnyCase any = readAnyCase(a.file, a.overrides);
   const auto* c = std::get_if<Case>(&any);
   if (!c) throw InputError({a.file.string(), 0, ""}, "is no case of worn cloth; garments are made by those that wear");
@@ -414,8 +420,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
              {batch_arguments.options.out, "--out"}}) {
       checkPath(path, option);
       const std::string_view name = option;
-      if (!path.empty() && (name == "CASE" || name == "STUDY" || name == "RESULTS" || name == "CARD" || name == "CELL" ||
-                            name == "FILE"))
+      if (!path.empty() && (name == "CASE" || name == "STUDY" || name == "RESULTS" || name == "CARD" ||
+                            name == "CELL" || name == "FILE"))
         subject = path.string();
     }
     for (const std::filesystem::path& file : batch_arguments.cases) checkPath(file, "CASE");

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <optional>
+#include <regex>
 #include <sstream>
 
 #include "core/error.hpp"
@@ -111,8 +112,11 @@ void checkIndices(std::string_view obj, const std::string& file) {
   }
 }
 
-/// What assimp says of files without a surface, in a user's words.
+/// What assimp says of files without a surface, or with faces of vertices that are not there, in a user's words.
 std::string inWords(const std::string& said) {
+  static const std::regex outside(R"(mFaces\[(\d+)\]::mIndices\[\d+\] is out of range)");
+  if (std::smatch found; std::regex_search(said, found, outside))
+    return "face " + found[1].str() + " (the first is 0) names a vertex that the file does not have";
   for (const char* none : {"mNumMeshes is 0", "contains no faces", "no faces"})
     if (said.find(none) != std::string::npos)
       return "holds no surface: triangles or polygons between vertices are needed";

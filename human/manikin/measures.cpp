@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "human/body/section.hpp"
 #include "human/manikin/manikin.hpp"
+#include "human/manikin/odd_measures.hpp"
 #include "human/manikin/person.hpp"
 #include "human/manikin/regressions.hpp"
 
@@ -34,16 +35,6 @@ constexpr std::array<const char*, 8> kSegments{"head", "trunk", "upper_arm", "fo
                                                "hand", "thigh", "shank",     "foot"};
 constexpr std::array<double, 8> kMale{6.94, 43.46, 2.71, 1.62, 0.61, 14.16, 4.33, 1.37};
 constexpr std::array<double, 8> kFemale{6.68, 42.57, 2.55, 1.38, 0.56, 14.78, 4.81, 1.29};
-
-[[noreturn]] void reject(const char* key, const std::string& reason) { throw InputError({"", 0, key}, reason); }
-
-void check(const char* key, const std::optional<double>& asked, const Regressions& r, const char* name, double errors) {
-  if (!asked) return;
-  const double expected = r.m(name), off = errors * r.error_m(name);
-  if (!(std::abs(*asked - expected) <= off))
-    reject(key, fmt::format("{:.4g} m goes with no body of {:.4g} m and {:.4g} kg; allowed: {:.3f} to {:.3f} m", *asked,
-                            r.stature_mm / 1000, r.mass_kg, expected - off, expected + off));
-}
 
 /// The facts of a person, with the keys of manikins.json.
 Json personOf(const ManikinMeasures& a, const Regressions& r) {
@@ -146,18 +137,34 @@ double girthAt(const Human& human, double height_m, const std::vector<std::strin
   return tapeGirth(std::move(points));
 }
 
+std::vector<OddMeasure> oddMeasures(const ManikinMeasures& a) {
+  const double square = a.stature_m * a.stature_m;
+  if (!(a.mass_kg >= kLeastIndex * square && a.mass_kg <= kMostIndex * square))
+    return {{"mass", a.mass_kg, kLeastIndex * square, kMostIndex * square}};
+  const Regressions r = regressionsFor(a.sex, a.stature_m, a.mass_kg);
+  std::vector<OddMeasure> odd;
+  const auto check = [&](const char* key, const std::optional<double>& asked, const char* name, double errors) {
+    const double expected = r.m(name), off = errors * r.error_m(name);
+    if (asked && !(std::abs(*asked - expected) <= off)) odd.push_back({key, *asked, expected - off, expected + off});
+  };
+  check("inseam", a.inseam_m, "crotchheight", kInseamErrors);
+  check("chest", a.chest_m, "chestcircumference", kGirthErrors);
+  check("waist", a.waist_m, "waistcircumference", kGirthErrors);
+  check("hip", a.hip_m, "buttockcircumference", kGirthErrors);
+  return odd;
+}
+
 Human makeManikin(const ManikinMeasures& a, MeasuresReport* report) {
   const bool female = a.sex == Sex::female;
+  if (const std::vector<OddMeasure> odd = oddMeasures(a); !odd.empty()) {
+    const OddMeasure& o = odd.front();
+    const bool mass = o.key == "mass";
+    throw InputError({"", 0, o.key},
+                     fmt::format("{:.4g} {} goes with no body of {:.4g} m{}; allowed: {:.4g} to {:.4g} {}", o.value,
+                                 mass ? "kg" : "m", a.stature_m, mass ? "" : fmt::format(" and {:.4g} kg", a.mass_kg),
+                                 o.least, o.most, mass ? "kg" : "m"));
+  }
   const Regressions r = regressionsFor(a.sex, a.stature_m, a.mass_kg);
-  const double index = a.mass_kg / (a.stature_m * a.stature_m);
-  if (!(index >= kLeastIndex && index <= kMostIndex))
-    reject("mass",
-           fmt::format("{:.4g} kg goes with no body of {:.4g} m; allowed: {:.1f} to {:.1f} kg", a.mass_kg, a.stature_m,
-                       kLeastIndex * a.stature_m * a.stature_m, kMostIndex * a.stature_m * a.stature_m));
-  check("inseam", a.inseam_m, r, "crotchheight", kInseamErrors);
-  check("chest", a.chest_m, r, "chestcircumference", kGirthErrors);
-  check("waist", a.waist_m, r, "waistcircumference", kGirthErrors);
-  check("hip", a.hip_m, r, "buttockcircumference", kGirthErrors);
 
   Json person = personOf(a, r);
   const Json &heights = person.at("heights_m"), &joints = person.at("joint_centres_m");

@@ -22,18 +22,28 @@ constexpr double kShoulderBelowAcromion_m = 0.032, kShoulderInside_m = 0.024;
 /// The crotch of a skin lies this far below the hip joints. A hip's height is moved by a part of what the crotch is
 /// higher or lower than expected: both vary about their regressions by 25 mm, not wholly together.
 constexpr double kHipAboveCrotch = 0.048, kHipByCrotch = 0.7;
-/// Hip joints are 8 mm + 0.086 leg lengths from the median plane and 9 mm + 0.078 leg lengths below the anterior
-/// superior iliac spines (Hara et al. 2016, doi 10.1038/srep37707; 180 people by magnetic resonance or tomography, 5 to
-/// 40 years; leg length: spine to medial malleolus).
+/// Hip joints by Hara et al. 2016 (doi 10.1038/srep37707: tomography of 157 people, 120 of them grown up; said to be
+/// off by 4 to 5 mm in each direction), of the leg's length L from anterior superior iliac spine to medial malleolus: 8
+/// mm + 0.086 L from the median plane, 9 mm + 0.078 L below the spines. The paper's table was not read here; three
+/// programs of others have these numbers, and for L = 0.88 m they give 84 and 78 mm, where the male of Rajagopal et al.
+/// 2016 has 77 and 78 mm, Bell et al. 1989 (0.36 of 240 mm between the spines) 86 mm and Harrington et al. 2007 (0.28
+/// of 150 mm of depth + 0.16 of that width + 8 mm) 88 mm. Rigs of characters have 69 mm (SMPL) to 110 mm (MakeHuman).
 constexpr double kHaraLateral_m = 0.008, kHaraLateral = 0.086, kHaraBelow_m = 0.009, kHaraBelow = 0.078;
-constexpr double kHipOfDepth = 0.54;  ///< of the trunk's depth there, from behind
+/// Hip, knee and ankle of most people lie on a line seen from ahead, so that knee and ankle show the hip too, within 2
+/// degrees (16 mm). It has this part in a hip's place across, for bodies that are not built as people are.
+constexpr double kHipByAxis = 0.33;
+constexpr double kHipOfDepth = 0.53;  ///< of the trunk's depth there, from behind
+/// A leg is thinnest 0.031 statures below its knee, if often over a length or twice: the mean of its levels, each with
+/// the weight exp(-(girth / least - 1) / 0.01 - (how far from where it is expected / 0.02 statures)²). Half of the
+/// knee's height is by this, half by the regressions.
+constexpr double kThinBelowKnee = 0.031, kThinner = 0.01, kThinSpread = 0.02, kKneeByThinnest = 0.5;
 constexpr double kLumbarAboveHip = 0.058, kLumbarBehindCentre = 0.0225;
+constexpr double kShoulderBelowNeck = 0.066,
+                 kShoulderByNeck = 0.3;  ///< below where it is thinnest; its part in the height
 constexpr double kNeckBelowThinnest = 0.004, kNeckBehindCentre = 0.0095;
 constexpr double kAnkleOfFoot = 0.224;    ///< share of the foot's length from the heel
 constexpr double kShoulderAhead = 0.004;  ///< of the upper arm's line
 constexpr double kElbowOfArm = 0.485;     ///< from wrist to shoulder
-
-constexpr double kWristByHand = 0.3;
 
 /// Lengths between joints that people have, in statures: 1st to 99th percentile of ANSUR II with a quarter more on
 /// either side, for what is measured on skins, and for characters.
@@ -57,11 +67,20 @@ Line lineThrough(const LimbLine& limb, double from, double to) {
   return {0.5 * (first + second), normalized(second - first)};
 }
 
-/// How far along a limb it is this far from its tip; its end where it does not reach that far.
-double farFrom(const LimbLine& limb, const Vec3& tip, double distance) {
-  for (std::size_t i = 0; i < limb.size(); ++i)
-    if (norm(limb.centre[i] - tip) >= distance) return limb.along[i];
-  return limb.along.back();
+/// The height where a leg is thinnest, near to where that is expected.
+double thinnestOf(const LimbLine& leg, double expected, double stature_m) {
+  const double spread = kThinSpread * stature_m;
+  const auto near = [&](std::size_t i) { return std::abs(leg.centre[i].z - expected) < 4 * spread; };
+  double least = std::numeric_limits<double>::infinity(), sum = 0, weights = 0;
+  for (std::size_t i = 0; i < leg.size(); ++i)
+    if (near(i)) least = std::min(least, leg.girth[i]);
+  for (std::size_t i = 0; i < leg.size(); ++i) {
+    if (!near(i)) continue;
+    const double off = (leg.centre[i].z - expected) / spread;
+    const double weight = std::exp(-(leg.girth[i] / least - 1) / kThinner - off * off);
+    sum += weight * leg.centre[i].z, weights += weight;
+  }
+  return weights > 0 ? sum / weights : expected;
 }
 
 double volumeOf(const TriangleMesh& body) {
@@ -89,12 +108,14 @@ std::map<std::string, Vec3> jointsOf(const TriangleMesh& body, const Landmarks& 
   };
   const CutLoop hips = trunkAt(hip_z);
   const double hip_x = hips.low(0) + kHipOfDepth * (hips.high(0) - hips.low(0));
+  const double by_acromion = mean("acromialheight") - kShoulderBelowAcromion_m,
+               by_neck = l.neck_height_m - kShoulderBelowNeck * H,
+               shoulder_z = by_acromion + kShoulderByNeck * (by_neck - by_acromion);
   for (int side = 0; side < 2; ++side) {
     const auto s = static_cast<std::size_t>(side);
     const std::string name = side == 0 ? "_right" : "_left";
     const double sign = side == 0 ? -1 : 1;
 
-    const Vec3 hip{hip_x, l.crotch.y + sign * (kHaraLateral_m + kHaraLateral * leg_length), hip_z};
     const LimbLine& leg = l.leg[s];
     const auto level = [&](double z) { return leg.at(z - leg.centre.front().z); };
     // Along a leg lengths are nearly heights; one step mends the rest.
@@ -105,19 +126,21 @@ std::map<std::string, Vec3> jointsOf(const TriangleMesh& body, const Landmarks& 
     };
     Vec3 ankle = at_height(ankle_z);
     ankle.x = l.heel[s].x + kAnkleOfFoot * (l.toe_tip[s].x - l.heel[s].x);
-    const Vec3 knee = at_height(ankle.z + knee_of_leg * (hip.z - ankle.z));
+    const double knee_z = ankle.z + knee_of_leg * (hip_z - ankle.z), thin_z = knee_z - kThinBelowKnee * H;
+    const Vec3 knee = at_height(knee_z + kKneeByThinnest * (thinnestOf(leg, thin_z, H) - thin_z));
+    const double beside = kHaraLateral_m + kHaraLateral * leg_length,
+                 on_axis = sign * (knee.y + (knee.y - ankle.y) / (knee.z - ankle.z) * (hip_z - knee.z) - l.crotch.y);
+    const Vec3 hip{hip_x, l.crotch.y + sign * (beside + kHipByAxis * (on_axis - beside)), hip_z};
     at["thigh" + name] = hip, at["shank" + name] = knee, at["foot" + name] = ankle;
     at["toes" + name] = l.ball[s];
 
     const LimbLine& arm = l.arm[s];
-    // Where an arm is thinnest is flat on a lean one, and a hand's length is that of a hand that is open.
-    const double end = arm.along.back(), by_hand = farFrom(arm, l.hand_tip[s], mean("handlength")),
-                 wrist = l.wrist[s] + kWristByHand * (by_hand - l.wrist[s]);
+    const double end = arm.along.back(), wrist = l.wrist[s];
     // The upper arm's line, from its middle part, on to where shoulders lie.
     const double middle = 0.5 * (wrist + end);
     Line upper = lineThrough(arm, middle + 0.15 * (end - middle), middle + 0.75 * (end - middle));
     const Vec3 expected{upper.through.x, l.crotch.y + sign * (0.5 * mean("biacromialbreadth") - kShoulderInside_m),
-                        mean("acromialheight") - kShoulderBelowAcromion_m};
+                        shoulder_z};
     Vec3 shoulder = upper.nearest(expected);
     // What is left across the line is between the arm's and the joint's own place: half of it.
     const Vec3 across = expected - shoulder;

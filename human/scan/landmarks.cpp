@@ -26,7 +26,10 @@ constexpr double kLeastArm = 0.25, kMostArm = 0.55;  ///< finger tip to armpit
 constexpr double kArmpit = 0.122;                    ///< nearer to the median plane arms are part of the trunk
 constexpr double kThinnest = 1.04;
 constexpr double kLeastFoot = 0.105, kMostFoot = 0.23;  ///< foot length 0.14 to 0.165 (ANSUR II); shoes are longer
-constexpr double kJump = 1.35;                          ///< growth of a section's area over a step where limbs join
+constexpr double kLeastHead =
+    0.10;                           ///< from where the neck is thinnest to the top: 0.12 to 0.16 of our skins and scans
+constexpr double kMostNeck = 0.34;  ///< girth of the neck: 0.19 to 0.27 (ANSUR II); hair is around it
+constexpr double kJump = 1.35;      ///< growth of a section's area over a step where limbs join
 
 class Finder {
  public:
@@ -260,8 +263,22 @@ class Finder {
       if (mine && mine->area_m2 > 1e-3 && mine->girth() < least)
         least = mine->girth(), out_.neck = *mine, out_.neck_height_m = z;
     }
-    if (!std::isfinite(least))
-      fail("neck", fmt::format("there is no neck between {:.2f} and {:.2f} m", 0.8 * H_, 0.92 * H_));
+    if (!(least < kMostNeck * H_))
+      fail("neck",
+           fmt::format(
+               "there is no neck between {:.2f} and {:.2f} m{}: is the head cut off, or hidden by hair or a hood? "
+               "Scans need their head, which tells how tall the body is",
+               0.8 * H_, 0.92 * H_,
+               std::isfinite(least)
+                   ? fmt::format(", where the trunk is at least {:.2f} m around, {:.2f} of the body's height; "
+                                 "necks are at most {:.2f} of it",
+                                 least, least / H_, kMostNeck)
+                   : ""));
+    if (const double above = H_ - out_.neck_height_m; !(above > kLeastHead * H_))
+      fail("neck", fmt::format("it is thinnest at {:.2f} m, {:.2f} m below its top; heads reach at least {:.2f} m "
+                               "above it: is the head cut off? Scans need their head, which tells how tall "
+                               "the body is",
+                               out_.neck_height_m, above, kLeastHead * H_));
   }
 
   const TriangleMesh& body_;

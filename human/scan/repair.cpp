@@ -19,7 +19,9 @@ namespace {
 
 constexpr double kWeld = 5e-6;                       ///< of the mesh's size
 constexpr double kNoPart = 0.01, kSecondBody = 0.3;  ///< of the largest part's area
-constexpr double kDebris = 0.05;                     ///< parts in between are named, but left out
+constexpr double kFlat = 0.03;  ///< rims that leave their plane by at most this share of their length are flat
+constexpr double kFlatLonger = 2;
+constexpr double kDebris = 0.05;  ///< parts in between are named, but left out
 
 using Triangle = std::array<int, 3>;
 using EdgeKey = std::pair<int, int>;
@@ -180,6 +182,17 @@ class Repair {
       report_.notes.push_back(fmt::format("{} triangles were turned over to agree with the others", turned));
   }
 
+  /// Whether a plane through the middle of the rim has it all: a cut, or what stood on the ground, which a fan closes
+  /// as it was.
+  bool isFlat(const std::vector<int>& rim, const Vec3& middle, double length) const {
+    Vec3 n;
+    for (std::size_t i = 0; i < rim.size(); ++i) n += cross(x(rim[i]) - middle, x(rim[(i + 1) % rim.size()]) - middle);
+    if (!(norm(n) > 0)) return false;
+    n = normalized(n);
+    return std::all_of(rim.begin(), rim.end(),
+                       [&](int v) { return std::abs(dot(n, x(v) - middle)) <= kFlat * length; });
+  }
+
   void closeHoles() {
     std::map<int, std::vector<int>> onward;  // of the rim, against the direction of the triangles
     {
@@ -222,10 +235,11 @@ class Repair {
         length += norm(x(rim[(i + 1) % rim.size()]) - x(rim[i]));
         mean += x(rim[i]) / static_cast<double>(rim.size());
       }
-      if (!(length <= close_share_ * tall))
+      const double most = isFlat(rim, mean, length) ? kFlatLonger * close_share_ : close_share_;
+      if (!(length <= most * tall))
         fail("holes", fmt::format("has a hole at {} whose rim is {:.3g} of the body's height long; those up to {:.3g} "
                                   "are closed. Close it in the file, or raise \"close_holes\"",
-                                  place(mean), length / tall, close_share_));
+                                  place(mean), length / tall, most));
       longest = std::max(longest, length / tall);
       ++holes;
       const int centre = static_cast<int>(mesh_.vertices.size());

@@ -169,7 +169,8 @@ def one(kind, number, seed, keep, call=call):
         for name, content in kind.files.items():
             data = content if isinstance(content, bytes) else content.encode()
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            (folder / name).write_bytes(mutated(data, data, chance) if name == kind.broken and number >= 0 else data)
+            broken = name == kind.broken and number >= 0
+            (folder / name).write_bytes(data if not broken else kind.spoil(data, chance) if kind.spoil else mutated(data, data, chance))
         answer = call(kind.command, folder, LONGEST_S)
         if kind.command[0] == "batch" and answer.cpu_s > LONGEST_S:  # a run may take its time, what comes before it not
             answer = call(["check", kind.main], folder, LONGEST_S)

@@ -6,6 +6,7 @@ import math
 import struct
 
 import fuzz_bodies
+import fuzz_scans
 import iges_text
 from common import SOURCE, Folder, run
 
@@ -194,6 +195,7 @@ def wearing(garment):
 
 CHARACTER = '"character": {"file": "%s"%s}, "motion": {"stand": {"duration": "20 ms"}}'
 MAKEHUMAN = ', "skeleton": "a.mhskel", "weights": "a.mhw", "targets": [{"file": "wide.target", "share": 0.5}]'
+SCAN = '"scan": {"file": "%s"%s}, "motion": {"stand": {"duration": "10 ms"}}'
 MANIKIN = '"manikin": "male_p50", "motion": {"stand": {"duration": "10 ms"}}'
 SEQUENCE = ('"obstacles": [{"name": "ball", "sequence": {"folder": "frames", "rate": "100 Hz", "scale": 0.1}}], '
             '"supports": [{"fixed": {"edge": "v1"}}],')
@@ -318,12 +320,12 @@ LAB_POINTS = """{"source": "a laboratory, 2026",
 
 class Kind:
     """One file to break among those beside it, and the commands that read it. `made`: a command that makes more files of those before the
-    first of them is broken."""
+    first of them is broken. `spoil`: what breaks it, of its bytes and chance, in place of changes of bytes."""
 
-    def __init__(self, name, broken, files, main="case.json", run=False, command=None, made=None):
+    def __init__(self, name, broken, files, main="case.json", run=False, command=None, made=None, spoil=None):
         self.name, self.broken, self.given, self.main, self.run = name, broken, files, main, run
         self.command = command or ["check", main]
-        self.made = made
+        self.made, self.spoil = made, spoil
 
     @functools.cached_property
     def files(self):
@@ -349,6 +351,8 @@ def kinds():
     scene, points = gltf("a.bin")
     body, body_points = fuzz_bodies.character_gltf("a.bin")
     character = lambda file, more="", **files: {"case.json": CLOTH % (HUMAN % (CHARACTER % (file, more))), **files}
+    scan = lambda file, content, more="": {"case.json": CLOTH % (HUMAN % (SCAN % (file, more))), file: content}
+    scan_obj = fuzz_scans.obj(*fuzz_scans.surface())
     base, skeleton, weights, target = fuzz_bodies.makehuman()
     on_makehuman = character("a.obj", MAKEHUMAN, **{"a.obj": base, "a.mhskel": skeleton, "a.mhw": weights, "wide.target": target})
     on_subject = {**recorded("walk.trc", ', "model": "a.osim"'), "walk.trc": fuzz_bodies.trc_of_subject()}
@@ -424,6 +428,11 @@ def kinds():
         Kind("makehuman_bones", "a.mhskel", on_makehuman, run=True),
         Kind("makehuman_weights", "a.mhw", on_makehuman, run=True),
         Kind("makehuman_target", "wide.target", on_makehuman, run=True),
+        Kind("scan_obj", "a.obj", scan("a.obj", scan_obj), run=True),
+        Kind("scan_ply", "a.ply", scan("a.ply", fuzz_scans.ply(*fuzz_scans.surface())), run=True),
+        Kind("scan_shape", "a.obj", scan("a.obj", scan_obj), run=True, spoil=fuzz_scans.spoilt),
+        Kind("case_scan", "case.json", scan("a.obj", scan_obj, ', "height": "175 cm", "up": "y", "facing": "z", "close_holes": 0.3, "like": "male_p50", '
+                                                                '"mass": "80 kg", "switch_off_folds": true'), run=True),
         Kind("sequence", "frames/1.obj", sequence, run=True),
         Kind("sequence_first", "frames/0.obj", sequence, run=True),
         Kind("case_sequence", "case.json", sequence, run=True),

@@ -1,11 +1,18 @@
 /// Detail of fields.hpp: the table of the human and its motion.
 
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "cases/input/mistakes.hpp"
 #include "cases/input/table.hpp"
+#include "cases/input/typed.hpp"
 #include "cases/wear/case/case.hpp"
 #include "cases/wear/case/fields.hpp"
 #include "cases/wear/case/fields_map.hpp"
 #include "cases/wear/case/motions/kind.hpp"
 #include "human/manikin/manikin.hpp"
+#include "human/manikin/odd_measures.hpp"
 
 namespace gambeson::schema {
 namespace {
@@ -47,6 +54,24 @@ Object characterTable() {
       .build();
 }
 
+/// Says every measure that goes with no body, all in the units that they were typed in.
+void checkMeasures(const Entry& p, const ManikinMeasures& m) {
+  const auto typed = [&](const std::string& key, double si) {
+    return inUnitOf(p, key, si, key == "mass" ? "kg" : "m");
+  };
+  Mistakes mistakes;
+  for (const OddMeasure& o : oddMeasures(m))
+    mistakes.without([&] {
+      const bool mass = o.key == "mass";
+      const double per = mass ? 10 : 1000;  // tenths of a kilogram, millimetres, within the range
+      p.failAt(o.key,
+               fmt::format("{} goes with no body of {}{}; allowed: {} to {}", typed(o.key, o.value),
+                           typed("stature", m.stature_m), mass ? "" : " and " + typed("mass", m.mass_kg),
+                           typed(o.key, std::ceil(per * o.least) / per), typed(o.key, std::floor(per * o.most) / per)));
+    });
+  mistakes.say();
+}
+
 Object measuresTable() {
   using M = ManikinMeasures;
   return Table<M>("Manikin by measures")
@@ -65,6 +90,7 @@ Object measuresTable() {
       .defaultsTo("likewise")
       .number("inseam", &M::inseam_m, "m", between(0.3, 1.5), "height of the crotch")
       .defaultsTo("that of people of that stature and mass")
+      .check([](const Entry& p, const M& m) { checkMeasures(p, m); })
       .build();
 }
 
@@ -102,8 +128,9 @@ Object scanTable() {
       .defaultsTo("found: feet at one end, a head at the other")
       .choice("facing", &S::facing, axes, "axis of the file that the body looks along")
       .defaultsTo("found: where the toes point")
-      .number("close_holes", &S::close_holes, "", between(0, 1),
-              "holes are closed whose rim is at most this share of the body's height long")
+      .number(
+          "close_holes", &S::close_holes, "", between(0, 1),
+          "holes are closed whose rim is at most this share of the body's height long, or twice that where it is flat")
       .choice("like", &S::like, manikinWords(), "the manikin whose limits of joints and shares of mass it takes")
       .flag("switch_off_folds", &S::folds_off, "as of a character")
       .number("mass", &S::mass_kg, "kg", aboveTo(0, 500), "of the whole body")

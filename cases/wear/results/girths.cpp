@@ -1,4 +1,4 @@
-/// Detail of measure.hpp: girths of the body and of what is worn over it, and the ease between them.
+#include "cases/wear/results/girths.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 
-#include "cases/wear/results/measure.hpp"
 #include "cases/wear/scene/placed_bodies.hpp"
 #include "human/body/girths.hpp"
 #include "human/body/section.hpp"
@@ -61,15 +60,11 @@ double lengthAround(const std::vector<std::array<Vec2, 2>>& pieces, const Vec2& 
 
 }  // namespace
 
-void measureGirths(const Scenario& s, const RecordingReader& recording, Measured& out) {
-  if (!s.human || recording.frameCount() == 0) return;
-  int first = 0;  // the last frame before the motion, when all is put on
-  while (first + 1 < recording.frameCount() && !(recording.time(first) > -1e-9)) ++first;
-  const Frame frame = recording.frame(first);
-  const std::vector<Vec3> x = vectorsOf(frame.positions);
-  const std::vector<Pose> poses = s.bodyPoses(frame.time_s);
+std::vector<GirthMeasure> girthsAt(const Scenario& s, const std::vector<Vec3>& x, double time_s) {
+  if (!s.human) return {};
+  const std::vector<Pose> poses = s.bodyPoses(time_s);
   PlacedBodies placed(s);
-  placed.moveTo(frame.time_s);
+  placed.moveTo(time_s);
   std::vector<Vec3> skin;
   if (s.human->skin) skin = placed.deformedMesh(0).vertices;
   const Surface& surface = s.model->surface;
@@ -79,6 +74,7 @@ void measureGirths(const Scenario& s, const RecordingReader& recording, Measured
               s.model->cloth->patches()[static_cast<std::size_t>(surface.triangle_patch[t])].garment)]
         .push_back(surface.triangles[t]);
   const std::size_t links = s.human->skeleton.links.size();
+  std::vector<GirthMeasure> girths;
   const std::vector<GirthPlane> planes = girthPlanes(*s.human, std::span(poses).first(links));
   for (const GirthPlane& plane : planes) {
     const std::optional<Vec2> other = otherSide(planes, plane);
@@ -96,8 +92,17 @@ void measureGirths(const Scenario& s, const RecordingReader& recording, Measured
     for (std::size_t g = 0; g < cloth.size(); ++g)
       if (const double length = lengthAround(cutPieces(plane, x, cloth[g]), middle, radius, other); length > 0)
         girth.worn.push_back({s.definition.garments[g].name, length});
-    out.girths.push_back(std::move(girth));
+    girths.push_back(std::move(girth));
   }
+  return girths;
+}
+
+void measureGirths(const Scenario& s, const RecordingReader& recording, Measured& out) {
+  if (!s.human || recording.frameCount() == 0) return;
+  int first = 0;  // the last frame before the motion, when all is put on
+  while (first + 1 < recording.frameCount() && !(recording.time(first) > -1e-9)) ++first;
+  const Frame frame = recording.frame(first);
+  out.girths = girthsAt(s, vectorsOf(frame.positions), frame.time_s);
 }
 
 }  // namespace gambeson

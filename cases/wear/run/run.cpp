@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "cases/cloth/usual.hpp"
 #include "cases/input/message.hpp"
 #include "cases/runs/disk_space.hpp"
 #include "cases/runs/folder_lock.hpp"
@@ -18,11 +19,13 @@
 #include "cases/runs/run_identity.hpp"
 #include "cases/runs/stop_message.hpp"
 #include "cases/wear/case/case.hpp"
+#include "cases/wear/case/fields.hpp"
 #include "cases/wear/case/motions/kind.hpp"
 #include "cases/wear/recording/recorder.hpp"
 #include "cases/wear/recording/recording_size.hpp"
 #include "cases/wear/recording/state_checkpoint.hpp"
 #include "cases/wear/recording/windows.hpp"
+#include "cases/wear/results/girths.hpp"
 #include "cases/wear/results/results.hpp"
 #include "cases/wear/run/company.hpp"
 #include "cases/wear/run/dress.hpp"
@@ -64,8 +67,8 @@ const char* limbsHint(const Case& c) {
 }
 
 /// Supports that let go after from_s, up to to_s, do so at to_s, where the state is, and cords are drawn as they are
-/// then: steps are made anew. What the energy of the cloth gains by that is theirs, as when points that were held belong
-/// to it. Whether anything changed.
+/// then: steps are made anew. What the energy of the cloth gains by that is theirs, as when points that were held
+/// belong to it. Whether anything changed.
 bool changeSupports(double from_s, double to_s, Scenario& s, State& state, Recorder& recorder, StepWork& work) {
   const std::vector<std::size_t> gone = lettingGo(s.definition, from_s, to_s);
   const bool cords = std::any_of(s.supports.begin(), s.supports.end(), [](const auto& g) { return !g.cord.empty(); });
@@ -79,6 +82,17 @@ bool changeSupports(double from_s, double to_s, Scenario& s, State& state, Recor
   if (drawn) state.elastic_J.reset();
   recorder.addSupportWork(energyOf(*s.model, *s.stage, state, work).total() - before);
   return true;
+}
+
+/// "girth of the hip: body 98.3 cm; shorts 106.2 cm, ease 7.9 cm (8.0 %)", in centimetres as tailors say them.
+std::string girthLine(const GirthMeasure& g) {
+  std::string zone = g.zone;
+  std::replace(zone.begin(), zone.end(), '_', ' ');
+  std::string line = fmt::format("girth of the {}: body {:.1f} cm", zone, 100 * g.body_m);
+  for (const GirthMeasure::Worn& w : g.worn)
+    line += fmt::format("; {} {:.1f} cm, ease {:.1f} cm ({:.1f} %)", w.garment.empty() ? "garment" : w.garment,
+                        100 * w.length_m, 100 * (w.length_m - g.body_m), 100 * (w.length_m / g.body_m - 1));
+  return line;
 }
 
 /// A device that fails says so, and how the run goes on; all that a shell needs stands in a line of its own.
@@ -96,12 +110,19 @@ bool changeSupports(double from_s, double to_s, Scenario& s, State& state, Recor
 
 }  // namespace
 
-void checkRun(const Case& c) {
+std::vector<std::string> checkRun(const Case& c) {
   const std::unique_ptr<Scenario> scenario = buildScenario(c);
   recordingLayout(*scenario);
   StepWork work;
-  startOf(*scenario, work);
+  const State state = startOf(*scenario, work);
   if (c.dressing.layer_by_layer && c.dressing.from.empty()) buildApart(c);
+  const auto unusual = unusualNumbers(schema::caseTable(), schema::writeObject(schema::caseTable(), &c));
+  std::vector<std::string> lines(scenario->notes.begin() + static_cast<std::ptrdiff_t>(unusual.size()),
+                                 scenario->notes.end());
+  std::vector<Vec3> x(static_cast<std::size_t>(scenario->model->surface.size()));
+  scenario->model->surface.WT.multiply<Vec3>(state.p, x);
+  for (const GirthMeasure& girth : girthsAt(*scenario, x, scenario->start_s)) lines.push_back(girthLine(girth));
+  return lines;
 }
 
 int runCase(const Case& c, const RunOptions& options) {
@@ -168,7 +189,8 @@ int runCase(const Case& c, const RunOptions& options) {
     try {
       steps.make();
       for (; k < windows.count(); ++k) {
-        if (k > 0 && changeSupports(windows.bound(k - 1), windows.bound(k), *scenario, state, recorder, work)) steps.make();
+        if (k > 0 && changeSupports(windows.bound(k - 1), windows.bound(k), *scenario, state, recorder, work))
+          steps.make();
         steps.advance(windows.bound(k + 1), state,
                       [&](const State& before, const State& after, const StepReport& report, const StepResult& w,
                           const Frequency& f) { recorder.observe(before, after, report, w, f); });

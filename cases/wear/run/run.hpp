@@ -12,8 +12,10 @@
 namespace gambeson {
 
 /// Builds what a run starts from, with the same errors, and lets it go: the scenario, each garment that is put on by
-/// itself, the state at the start.
-void checkRun(const Case& c);
+/// itself, the state at the start. Returns what a user should know of it, a line each: the notes of the run (but those
+/// of unusual numbers, which the file says better), and of a human the girths as the run starts: of the body, of each
+/// garment that goes around it as drafted or placed, and the ease between them.
+std::vector<std::string> checkRun(const Case& c);
 
 /// In company (RunOptions) it leaves the results to finishApart: pictures are drawn by one thread of a process at a
 /// time.

@@ -15,9 +15,12 @@
 #include "human/body/section.hpp"
 #include "human/character/character.hpp"
 #include "human/scan/joints.hpp"
+#include "human/scan/landmarks.hpp"
 #include "human/scan/loops.hpp"
 #include "human/scan/repair.hpp"
+#include "human/scan/upright.hpp"
 #include "tools/data_folder.hpp"
+#include "tools/scan_bodies.hpp"
 #include "unit/human/scan/scan_body.hpp"
 
 namespace gambeson {
@@ -31,6 +34,19 @@ const test::ScanBody& aPose() {
 Human made(const TriangleMesh& mesh, ScanReport* report = nullptr, ScanOptions options = {}) {
   options.file = "scan.ply";
   return scanOf(mesh, options, report);
+}
+
+/// Those found in a scan, whose file has x forward, y left, z up, in metres.
+void expectJointsOf(const test::KnownScan& s, double within_m) {
+  RepairReport repair;
+  std::vector<std::string> notes;
+  const TriangleMesh raw = repaired(s.mesh, ScanOptions{}.close_holes, "scan.ply", repair);
+  const TriangleMesh body = upright(raw, {}, "scan.ply", notes);
+  const Vec3 shift = body.vertices[0] - raw.vertices[0];
+  for (const auto& [link, found] : jointsOf(body, landmarksOf(body, "scan.ply")))
+    if (s.joints.contains(link)) {
+      EXPECT_LT(norm(found - s.joints.at(link) - shift), within_m) << link;
+    }
 }
 
 /// The scan's frame has the middle of its feet as origin; that of the known joints its pelvis.
@@ -57,6 +73,22 @@ TEST(Scan, JointsOfASmallWomanAreWithinTwoCentimetres) { expectJoints(test::scan
 // joint are 2.7 cm off.
 TEST(Scan, JointsOfALargeWomanWhoseThighsTouchAreWithinTwoCentimetres) {
   expectJoints(test::scanBody("female_p95", 45), 0.02);
+}
+
+// Lengths of hands and the first thin section put wrists 2.3 cm off once every twentieth vertex was gone.
+TEST(Scan, JointsOfAWorseScanAreWithinTwoCentimetres) {
+  const test::KnownScan man = test::knownScan("male_p95", 45);
+  expectJointsOf(test::decimated(man, 0.05), 0.02);
+  expectJointsOf(test::noisy(man, 0.002), 0.02);
+}
+
+TEST(Scan, FeetWithoutSolesAreClosed) {
+  const test::KnownScan woman = test::knownScan("female_p50", 60);
+  double low = 1;
+  for (const Vec3& x : woman.mesh.vertices) low = std::min(low, x.z);
+  const test::KnownScan open = test::without(woman, [&](const Vec3& x) { return x.z < low + 0.009; });
+  ASSERT_LT(open.mesh.triangles.size(), woman.mesh.triangles.size() - 20);
+  expectJointsOf(open, 0.02);
 }
 
 TEST(Scan, StandsAgainAsItWasScanned) {
@@ -292,6 +324,12 @@ TEST(ScanMalformed, ABodyCutOffAboveItsFeetNamesThem) {
   refuses(without(aPose().mesh, [](const Vec3& x) { return x.y < 110; }), "feet", "cut off above its feet");
 }
 
+TEST(ScanMalformed, ABodyWithoutAHeadNamesTheNeck) {
+  ScanOptions open;
+  open.close_holes = 0.5;
+  refuses(without(aPose().mesh, [](const Vec3& x) { return x.y > 1500; }), "neck", "is the head cut off", open);
+}
+
 TEST(ScanMalformed, ALimbOfALengthThatNobodyHasNamesIt) {
   Landmarks marks;
   marks.stature_m = 1.75;
@@ -362,11 +400,12 @@ TEST(RealScans, MakeHumansBaseMeshHasTheJointsOfItsRig) {
   Vec3 shift;
   for (const Vec3& x : h.skin->rest.vertices) shift += x / static_cast<double>(h.skin->rest.vertices.size());
   for (const Vec3& x : known.skin->rest.vertices) shift -= x / static_cast<double>(h.skin->rest.vertices.size());
-  for (const char* link : {"shank_left", "foot_left", "upper_arm_left", "forearm_left", "hand_left", "torso", "head"}) {
+  for (const char* link :
+       {"thigh_left", "shank_left", "foot_left", "upper_arm_left", "forearm_left", "hand_left", "torso", "head"}) {
     const auto at = [&](const Human& human) {
       return human.skin->bind[static_cast<std::size_t>(human.skeleton.link(link))].origin;
     };
-    EXPECT_LT(norm(at(h) - at(known) - shift), 0.021) << link;
+    EXPECT_LT(norm(at(h) - at(known) - shift), link == std::string("thigh_left") ? 0.033 : 0.021) << link;
   }
 }
 

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <regex>
+
 #include "cases/wear/case/human.hpp"
+#include "cases/wear/run/run.hpp"
 #include "cases/wear/scene/garments.hpp"
 #include "cases/wear/scene/scenario.hpp"
 #include "core/cloth/draft/areas.hpp"
@@ -69,6 +73,32 @@ TEST(WearerCase, AScanWearsShortsAsLargeAsTheBodysThatItIsOf) {
     return sum;
   };
   EXPECT_NEAR(area(draftGarments(c, &*s->human)[0]) / area(draftGarments(own, &human)[0]), 1, 0.05);
+}
+
+TEST(WearerCase, CheckSaysTheGirthsOfAScanAndTheEaseOfWhatItWears) {
+  const Folder folder;
+  writeMesh(test::scanBody("male_p50", 45).mesh, folder.path() / "man.obj");
+  const Case c = readCase(folder.write("case.json", caseOf(R"("scan": {"file": "man.obj"})")));
+  const std::vector<std::string> lines = checkRun(c);
+  // The match of a line, as numbers.
+  const auto numbers = [&](const std::string& form) {
+    std::vector<double> found;
+    for (const std::string& line : lines)
+      if (std::smatch m; std::regex_match(line, m, std::regex(form)))
+        for (std::size_t k = 1; k < m.size(); ++k) found.push_back(std::stod(m[k]));
+    return found;
+  };
+  const auto scanned = numbers(R"(scan man\.obj: hip ([0-9.]+) cm as scanned, ([0-9.]+) cm standing)"),
+             worn = numbers(
+                 R"(girth of the hip: body ([0-9.]+) cm; garment ([0-9.]+) cm, ease ([0-9.]+) cm \(([0-9.]+) %\))"),
+             bare = numbers(R"(girth of the chest: body ([0-9.]+) cm)");
+  ASSERT_EQ(scanned.size(), 2u);
+  ASSERT_EQ(worn.size(), 4u);
+  EXPECT_EQ(bare.size(), 1u);
+  EXPECT_NEAR(worn[0], scanned[1], 0.11);
+  EXPECT_NEAR(worn[1] - worn[0], worn[2], 0.11);
+  EXPECT_NEAR(100 * worn[2] / worn[0], worn[3], 0.11);
+  EXPECT_GT(worn[2], 1);
 }
 
 TEST(WearerCase, AScanThatIsNoneNamesItsFileAndWhatIsMissing) {
