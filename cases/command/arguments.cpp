@@ -251,7 +251,7 @@ void addExport(CLI::App& app, ExportArguments& a) {
           "scale is that of pictures")
       ->type_name("FIELD")
       ->capture_default_str();
-  command.add_option("--frames", a.options.frames, "Of animations: at most so many frames, evenly [all of the motion]")
+  command.add_option("--frames", a.options.frames, "Of animations: at most so many frames, evenly; of a .glb fewer where it would have more than 100 MB [all of the motion]")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000));
   command

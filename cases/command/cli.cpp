@@ -138,7 +138,7 @@ int draft(const DraftArguments& a, std::ostream& out) {
   if (a.flat) {
     const std::size_t garment = garmentCalled(*c, a.garment);
     checkOutput(a.garment_file, "--output", inputsOf(any));
-    flatToFile(draftOf(*c, garment), a.garment_file, out);
+    flatToFile(draftOf(*c, garment), a.garment_file, standsOf(fabricOf(*c, c->garments[garment])), out);
     return done;
   }
   draftToFile(*c, a.garment, a.garment_file, ending == ".obj", out);

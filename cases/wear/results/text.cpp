@@ -180,7 +180,7 @@ void sayFabric(const std::string& of, const FabricCase& f, std::vector<std::stri
 
 }  // namespace
 
-std::vector<std::string> assumptionsOf(const Scenario& s) {
+std::vector<std::string> assumptionsOf(const Scenario& s, const Measured& m) {
   const Case c = withFactors(s.definition);
   std::vector<std::string> list;
   const auto say = [&](std::string text) { list.push_back(std::move(text)); };
@@ -220,7 +220,7 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
           "upper arm down to the armpit; the waist is the lower 40 % of the trunk from the lumbar joint up to the "
           "shoulder joints, the chest what lies between; hips are the pelvis.");
     say(kindOf(*c.human).assumption(*s.motion));
-    if (s.feet) {
+    if (s.feet && m.playedToTheEnd(s)) {
       std::string feet = feetText(*s.feet);
       feet[0] = 'T';
       say(feet + ".");
@@ -234,7 +234,7 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
                     formatNumber(1e3 * c.output.window_s)));
     if (const std::string natural = naturalMeaning(c.analysis.task); !natural.empty()) say(natural);
   }
-  if (const auto strides = stridesOf(c))
+  if (const auto& strides = m.strides; strides && m.played == Measured::Played::strides)
     say(
         fmt::format("Peaks and mean squares of torques count from the foot strike at {} s on; the lead-in before it is "
                     "only drawn.",

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "cases/cloth/usual.hpp"
 #include "cases/input/message.hpp"
 #include "cases/runs/disk_space.hpp"
 #include "cases/runs/folder_lock.hpp"
@@ -18,6 +19,7 @@
 #include "cases/runs/run_identity.hpp"
 #include "cases/runs/stop_message.hpp"
 #include "cases/wear/case/case.hpp"
+#include "cases/wear/case/fields.hpp"
 #include "cases/wear/case/motions/kind.hpp"
 #include "cases/wear/recording/recorder.hpp"
 #include "cases/wear/recording/recording_size.hpp"
@@ -25,6 +27,7 @@
 #include "cases/wear/recording/windows.hpp"
 #include "cases/wear/results/results.hpp"
 #include "cases/wear/run/company.hpp"
+#include "cases/wear/run/draft.hpp"
 #include "cases/wear/run/dress.hpp"
 #include "cases/wear/run/run_steps.hpp"
 #include "cases/wear/scene/worn.hpp"
@@ -81,6 +84,12 @@ bool changeSupports(double from_s, double to_s, Scenario& s, State& state, Recor
   return true;
 }
 
+/// What is to be known before results: what bears on them, and what was found in files.
+void sayNotes(const Scenario& s, std::size_t first = 0) {
+  for (std::size_t k = first; k < s.notes.size(); ++k) sayNote(s.notes[k]);
+  for (const std::string& fact : s.facts) sayNote(fact);
+}
+
 /// A device that fails says so, and how the run goes on; all that a shell needs stands in a line of its own.
 [[noreturn]] void failOnDevice(const gpu::DeviceError& e, const std::string& phase, const Case& c,
                                const RunOptions& options) {
@@ -97,7 +106,12 @@ bool changeSupports(double from_s, double to_s, Scenario& s, State& state, Recor
 }  // namespace
 
 void checkRun(const Case& c) {
+  // Unusual numbers come first among the notes; whoever checks a file has said them with their lines.
+  const std::size_t unusual =
+      unusualNumbers(schema::caseTable(), schema::writeObject(schema::caseTable(), &c)).size();
   const std::unique_ptr<Scenario> scenario = buildScenario(c);
+  sayNotes(*scenario, unusual);
+  for (const std::string& uncut : uncutText(c, scenario->wardrobe.drafts)) sayNote(uncut);
   recordingLayout(*scenario);
   StepWork work;
   startOf(*scenario, work);
@@ -116,12 +130,10 @@ int runCase(const Case& c, const RunOptions& options) {
         "stopped by a signal. What is recorded up to the last checkpoint stays in {}: the same command with "
         "--resume goes on from there",
         options.out.string()));
-  if (options.resume && !resume)
-    fmt::print(notes(), "{} holds no checkpoint to resume from: starting at the beginning\n", options.out.string());
   const std::unique_ptr<Scenario> scenario = buildScenario(c);
   const Model& model = *scenario->model;
   const Company::Share memory = requireRoom(c, options, model);
-  for (const std::string& note : scenario->notes) sayNote(note);
+  sayNotes(*scenario);
 
   StepWork work;
   State state;
@@ -135,6 +147,14 @@ int runCase(const Case& c, const RunOptions& options) {
   }
   if (const std::string note = sizeNote(recordingSize(*scenario, layout).bytes, freeBytes(options.out)); !note.empty())
     sayNote(note);
+  DressingProgress dressing(options.out / kDressingFile,
+                            RunIdentity(caseIdentity(c), model.cloth->kernels(), DeviceKind::cpu).text(),
+                            options.resume && !resume);
+  if (dressing.resumes())
+    fmt::print(notes(), "{}: dressing goes on, with {} of {} garments on\n", options.out.string(),
+               dressing.worn().garments.size(), c.garments.size());
+  else if (options.resume && !resume)
+    fmt::print(notes(), "{} holds no checkpoint to resume from: starting at the beginning\n", options.out.string());
   // The case is written once there is a recording and before its first segment: a recording with a segment has its
   // case, whenever the run is killed.
   if (!resume) removeEarlierResults(options.out);
@@ -144,7 +164,7 @@ int runCase(const Case& c, const RunOptions& options) {
     requireRecordedCase(options.out, readLayout(options.out));
   else
     writeOwnFile(options.out / "case.json", writeCase(c));
-  if (!resume) putOn(*scenario);
+  if (!resume) putOn(*scenario, dressing);
   state = resume ? stateOf(checkpoint, frequency) : startOf(*scenario, work);
 
   const Windows windows(scenario->start_s, scenario->end_s, c.output.window_s);
@@ -152,7 +172,10 @@ int runCase(const Case& c, const RunOptions& options) {
   while (k < windows.count() && windows.bound(k) < state.time_s) ++k;
   Recorder recorder(*scenario, writer);
   // A run that is killed early starts again from the start itself.
-  if (!resume) writer.closeSegment(checkpointOf(state, frequency));
+  if (!resume) {
+    writer.closeSegment(checkpointOf(state, frequency));
+    dressing.finish();
+  }
   // What was let go and drawn before the checkpoint: at its own time the run had not done so yet.
   if (k > 1) {
     if (const auto gone = lettingGo(c, windows.bound(0), windows.bound(k - 1)); !gone.empty())

@@ -22,7 +22,7 @@ struct MadeBodies {
   std::optional<FootReport> feet;
   std::optional<Hurdle> hurdle;         ///< what the motion steps over
   std::vector<MadeObstacle> obstacles;  ///< of the case, in its order
-  std::vector<std::string> notes;       ///< what a user should know of them
+  std::vector<std::string> notes, facts;  ///< as those of a Scenario
 };
 /// Throws InputError with the case's keys.
 MadeBodies makeBodies(const Case& c);
