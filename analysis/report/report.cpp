@@ -94,7 +94,7 @@ std::string notesOf(const std::vector<std::string>& notes) {
 }
 
 /// What was found in files and made of measures, under the words that several begin with.
-std::string factsOf(const std::vector<std::string>& facts) {
+std::string foundText(const std::vector<std::string>& facts) {
   if (facts.empty()) return "";
   std::vector<std::pair<std::string, std::string>> groups;  // words, items
   for (const std::string& fact : facts) {
@@ -328,7 +328,7 @@ std::string headlineOf(const ReportInput& input) {
 }
 
 std::string formatReport(const ReportInput& in) {
-  std::string body = alarms(in) + headline(in) + notesOf(in.notes) + factsOf(in.facts);
+  std::string body = alarms(in) + headline(in) + notesOf(in.notes) + foundText(in.found);
   if (!in.joints.empty() || in.outcome.empty())
     body +=
         pageSectionOf("joints", "What each joint pays",

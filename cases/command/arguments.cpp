@@ -56,6 +56,8 @@ void addRun(CLI::App& app, RunArguments& a) {
   addOverrides(run, a.overrides);
   addDevice(run, a.device);
   run.footer(
+      "Time goes with the size of cells (garment.NAME.cell): a walk takes minutes with 50 mm and most of an hour with 20; half\n"
+      "the size takes some ten times as long. Run gambeson check first, stand before you walk, and walk coarse before fine.\n\n"
       "Leaves in DIR: report.html (start here), summary.json (all numbers), torques.csv, contact.csv, zones.csv,\n"
       "stress.csv, patches.csv, straps.csv, collisions.csv, energy.csv, memory.csv, latitude.csv, snapshots/\n"
       "(pictures) and frames.xdmf (the recording, for ParaView). Static, dynamic and modal cases leave path.csv "

@@ -12,6 +12,7 @@
 #include "cases/pattern/svg.hpp"
 #include "core/error.hpp"
 #include "core/io/own_file.hpp"
+#include "tryon/pattern/flat/flatten_draft.hpp"
 #include "tryon/pattern/flat/panel_geometry.hpp"
 
 namespace gambeson {
@@ -50,17 +51,6 @@ void say(const FlattenedDraft& flat, double limit, std::ostream& out) {
 }
 
 }  // namespace
-
-std::string beyondText(const FlattenedDraft& flat, double limit) {
-  std::string text;
-  for (std::size_t k = 0; k < flat.flattening.size(); ++k) {
-    const Flattening& f = flat.flattening[k];
-    if (!(f.rms_strain > limit)) continue;
-    text += fmt::format("{}{} by {:.2g} % in the mean and up to {:.2g} %", text.empty() ? "" : ", ",
-                        flat.pattern.panels[k].name, 100 * f.rms_strain, 100 * f.largest_strain);
-  }
-  return text;
-}
 
 void flatToFile(const Garment& garment, const std::filesystem::path& file, double limit, std::ostream& out) {
   const FlattenedDraft flat = flattenDraft(garment);

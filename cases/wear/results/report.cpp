@@ -299,7 +299,7 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
         fmt::format("The run stopped at {:.2f} s of {:.2f} s: what follows is only what was recorded until then.",
                     m.recorded_end_s, s.end_s));
   for (const std::string& note : s.notes) in.notes.push_back(capital(note) + ".");
-  in.facts = s.facts;
+  in.found = s.facts;
   sayPlayed(m, in);
   in.audit = auditOf(m);
   for (AuditCheck& c : stretchChecks(s.definition, m.stretch)) in.audit.push_back(std::move(c));

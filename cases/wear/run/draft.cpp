@@ -8,7 +8,6 @@
 #include "cases/cloth/make_cloth.hpp"
 #include "cases/input/schema.hpp"
 #include "cases/input/wrong_entry.hpp"
-#include "cases/pattern/flat_draft.hpp"
 #include "cases/runs/results_folder.hpp"
 #include "cases/wear/case/factors.hpp"
 #include "cases/wear/case/garments/kind.hpp"
@@ -19,6 +18,7 @@
 #include "core/cloth/draft/seams.hpp"
 #include "core/error.hpp"
 #include "core/io/own_file.hpp"
+#include "tryon/pattern/flat/flatten_draft.hpp"
 #include "tryon/pattern/garment_file.hpp"
 
 namespace gambeson {

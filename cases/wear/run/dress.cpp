@@ -82,6 +82,7 @@ struct Closed {
 Closed closePanels(const Case& one, const Case& whole, std::size_t garment, DressingProgress& progress) {
   const Stitching& law = *one.garments[0].stitching;
   std::unique_ptr<Scenario> panels = floatingPanels(one, whole, garment);
+  progress.show(one.garments[0].name, panels->start_s);
   const Model& m = *panels->model;
   StepWork work;
   Frequency frequency;
@@ -246,6 +247,7 @@ Dressed putOnApart(const Case& c, DressingProgress& progress) {
         s->start_m = sew(s->model->cloth->map(), controlPoints(*closed.panels, closed.state));
         s->start_history = carriedHistory(*closed.panels->model->cloth, closed.state.history, *s->model->cloth);
       }
+      progress.show(c.garments[g].name.empty() ? "the garment" : c.garments[g].name, s->start_s);
       progress.add(dressedOf(*s, sewn ? sewnAround(*s, progress) : settled(*s, progress)));
     } catch (const RunError& e) {
       throw RunError(fmt::format("putting on the garment \"{}\": {}", c.garments[g].name, e.what()));

@@ -54,6 +54,11 @@ DressingProgress::DressingProgress(std::filesystem::path file, std::string ident
   }
 }
 
+void DressingProgress::show(const std::string& garment, double start_s) {
+  shown_ = std::make_unique<Progress>(-start_s);
+  garment_ = garment, start_s_ = start_s;
+}
+
 std::optional<State> DressingProgress::take(Donning donning, Frequency& frequency) {
   if (!state_ || donning != donning_) return {};
   State state = stateOf(*state_, frequency);
@@ -62,11 +67,14 @@ std::optional<State> DressingProgress::take(Donning donning, Frequency& frequenc
 }
 
 void DressingProgress::keep(Donning donning, const State& state, const Frequency& frequency) {
+  const char* const words[]{"stitching", "putting on", "moving"};
+  if (shown_) shown_->update(state.time_s - start_s_, words[static_cast<int>(donning)] + (" " + garment_));
   if (file_.empty() || std::chrono::steady_clock::now() - last_ < every) return;
   write(valuesOf(donning, checkpointOf(state, frequency)));
 }
 
 void DressingProgress::add(const Dressed& one) {
+  shown_.reset();
   worn_.body = one.body;
   worn_.posture = one.posture;
   worn_.garments.push_back(one.garments.at(0));

@@ -6,9 +6,11 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "cases/runs/progress.hpp"
 #include "cases/wear/scene/dressed.hpp"
 #include "core/io/recording.hpp"
 #include "core/motion/step.hpp"
@@ -35,6 +37,8 @@ class DressingProgress {
   /// Garments that are on.
   const Dressed& worn() const { return worn_; }
 
+  /// What is shown on a terminal from now on: the garment that is put on, in a time from start_s to 0.
+  void show(const std::string& garment, double start_s);
   /// Whether the garment in hand was further than that when the run was stopped.
   bool isPast(Donning donning) const { return state_ && donning < donning_; }
   /// Its state, where it was stopped in just that; once.
@@ -52,6 +56,9 @@ class DressingProgress {
  private:
   void write(const std::map<std::string, Values>& of_state);
 
+  std::unique_ptr<Progress> shown_;
+  std::string garment_;
+  double start_s_ = 0;
   std::filesystem::path file_;  ///< empty: nothing is kept
   std::string identity_;
   bool resumes_ = false;

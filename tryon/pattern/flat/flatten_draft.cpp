@@ -297,4 +297,15 @@ FlattenedDraft flattenDraft(const Garment& garment) {
   return out;
 }
 
+std::string beyondText(const FlattenedDraft& flat, double limit) {
+  std::string text;
+  for (std::size_t k = 0; k < flat.flattening.size(); ++k) {
+    const Flattening& f = flat.flattening[k];
+    if (!(f.rms_strain > limit)) continue;
+    text += fmt::format("{}{} by {:.2g} % in the mean and up to {:.2g} %", text.empty() ? "" : ", ",
+                        flat.pattern.panels[k].name, 100 * f.rms_strain, 100 * f.largest_strain);
+  }
+  return text;
+}
+
 }  // namespace gambeson
