@@ -298,10 +298,11 @@ FlattenedDraft flattenDraft(const Garment& garment) {
 }
 
 std::string beyondText(const FlattenedDraft& flat, double limit) {
+  constexpr double kFarBeyond = 0.3;
   std::string text;
   for (std::size_t k = 0; k < flat.flattening.size(); ++k) {
     const Flattening& f = flat.flattening[k];
-    if (!(f.rms_strain > limit)) continue;
+    if (!(f.rms_strain > 2 * limit || f.largest_strain > limit + kFarBeyond)) continue;
     text += fmt::format("{}{} by {:.2g} % in the mean and up to {:.2g} %", text.empty() ? "" : ", ",
                         flat.pattern.panels[k].name, 100 * f.rms_strain, 100 * f.largest_strain);
   }

@@ -23,8 +23,8 @@ struct FlattenedDraft {
 /// patches (weak and sewn ones).
 FlattenedDraft flattenDraft(const Garment& garment);
 
-/// Panels that lie flat only where they are stretched, in the mean over the area, beyond what their fabric stands (a
-/// share of the length): "sleeve_top_left by 8.1 % in the mean and up to 79 %, ..". Empty where there are none.
+/// Panels that lie flat only where they are stretched far beyond what their fabric stands (a share of the length): by
+/// twice that in the mean over the area, or by 30 % more somewhere. "sleeve_top_left by 8.1 % in the mean and up to 79 %, ..". Empty where there are none.
 std::string beyondText(const FlattenedDraft& flat, double limit);
 
 }  // namespace gambeson

@@ -120,9 +120,9 @@ TEST(Dress, GoesOnFromWhereItWasStopped) {
     return kept;
   };
   const int all = dressUpTo(-1);
-  ASSERT_GT(all, 20);
+  ASSERT_GT(all, 6);
   std::size_t furthest = 0;
-  for (const int at : {1, all / 4, all / 2, all - 3, all - 1}) {
+  for (const int at : {1, all / 2, all - 1}) {
     SCOPED_TRACE(at);
     ASSERT_EQ(dressUpTo(at), at);
     DressingProgress progress(file, "this run", true);
