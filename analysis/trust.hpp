@@ -36,7 +36,9 @@ struct Trust {
   int unplayed = 0;   ///< runs that ended before what they are to judge began
   void check(bool holds, bool spoils) { failing += !holds, spoiling += !holds && spoils; }
   void stretch(const Stretch& s) { stretched += !s.holds(); }
-  void add(const Trust& t) { failing += t.failing, spoiling += t.spoiling, stretched += t.stretched, unplayed += t.unplayed; }
+  void add(const Trust& t) {
+    failing += t.failing, spoiling += t.spoiling, stretched += t.stretched, unplayed += t.unplayed;
+  }
   /// No check says not to rely on the numbers.
   bool reliable() const { return failing == 0; }
   bool whole() const { return reliable() && stretched == 0 && unplayed == 0; }

@@ -346,8 +346,8 @@ std::size_t GlbSize::most(double largest) const {
 }
 
 GlbSize glbSize(const AnimatedScene& few) {
-  constexpr double kNode = 28;       ///< turn and place
-  constexpr double kSaid = 160;      ///< JSON of a morph target: its accessor with bounds, its name, its weight at rest
+  constexpr double kNode = 28;   ///< turn and place
+  constexpr double kSaid = 160;  ///< JSON of a morph target: its accessor with bounds, its name, its weight at rest
   GlbSize size;
   size.of_time = sizeof(float);
   for (const MovedNode& n : few.nodes) size.of_time += n.at.size() > 1 ? kNode : 0;

@@ -108,7 +108,8 @@ std::string foundText(const std::vector<std::string>& facts) {
   for (const auto& [about, items] : groups)
     body += (about.empty() ? "" : element("p", escape(capital(about)), " class=\"about\"")) +
             element("ul", items, " class=\"notes\"");
-  return element("details", element("summary", fmt::format("What was found of wearer and scene ({} notes)", facts.size())) + body,
+  return element("details",
+                 element("summary", fmt::format("What was found of wearer and scene ({} notes)", facts.size())) + body,
                  " class=\"facts\"");
 }
 
@@ -185,8 +186,7 @@ std::string tableOf(const Table& t) {
   };
   std::string head;
   for (std::size_t c = 0; c < t.columns.size(); ++c)
-    head += element("th", escape(t.columns[c]),
-                    ofNumbers(c) ? " scope=\"col\" class=\"number\"" : " scope=\"col\"");
+    head += element("th", escape(t.columns[c]), ofNumbers(c) ? " scope=\"col\" class=\"number\"" : " scope=\"col\"");
   std::string body;
   for (const auto& row : t.rows) {
     std::string cells;

@@ -29,7 +29,7 @@ dl.answers dd { margin:0; font-weight:600; } dl.answers .reason { font-weight:40
 .card { background:var(--paper); border:1px solid var(--line); border-top:4px solid var(--accent); border-radius:10px; padding:14px 16px; }
 .card.left { border-top-color:var(--left); } .card.right { border-top-color:var(--right); }
 .card .big { font-size:1.9rem; font-weight:700; line-height:1.15; margin:2px 0 6px; }
-.card .big small { font-size:1rem; font-weight:600; }
+.card .big small { font-size:1rem; font-weight:600; white-space:nowrap; }
 .card h3 { margin:0; } .card h3 .tag { float:right; font-size:.75rem; font-weight:600; color:var(--accent); border:1px solid var(--accent); border-radius:99px; padding:0 8px; }
 .card p { margin:0; font-size:.95rem; } .card p.soft { color:var(--soft); }
 .cards.reasons { grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr)); } .cards.reasons .card:first-child:nth-last-child(odd) { grid-column:1 / -1; } .cards.reasons .card { border-top-color:var(--accent); } .cards.reasons p { margin-top:6px; }

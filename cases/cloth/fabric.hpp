@@ -30,8 +30,8 @@ struct EnergySource {
 /// A fabric, and how far it may be stretched: what no force depends on, but the verdict.
 struct FabricCase : Fabric {
   std::optional<double> limit_strain_weft, limit_strain_warp;  ///< Green-Lagrange strains; absent: those of the law
-  std::filesystem::path card;  ///< that it is of (cases/cloth/card.hpp); empty: none
-  std::optional<EnergySource> energy_source;  ///< that `energy` is of
+  std::filesystem::path card;                                  ///< that it is of (cases/cloth/card.hpp); empty: none
+  std::optional<EnergySource> energy_source;                   ///< that `energy` is of
   bool operator==(const FabricCase&) const = default;
 };
 

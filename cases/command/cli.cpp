@@ -129,9 +129,10 @@ int check(const CheckArguments& a, std::ostream& out) {
 int draft(const DraftArguments& a, std::ostream& out) {
   using Endings = std::vector<std::string>;
   if (a.flat && a.obj) throw InputError({"command line", 0, "--flat"}, "excludes --obj; give only one of them");
-  const std::string ending =
-      checkEnding(a.garment_file, "--output",
-                  a.flat ? Endings{".dxf", ".svg", ".json"} : a.obj ? Endings{".obj"} : Endings{".json", ".obj"});
+  const std::string ending = checkEnding(a.garment_file, "--output",
+                                         a.flat  ? Endings{".dxf", ".svg", ".json"}
+                                         : a.obj ? Endings{".obj"}
+                                                 : Endings{".json", ".obj"});
   const AnyCase any = readAnyCase(a.file, a.overrides);
   const auto* c = std::get_if<Case>(&any);
   if (!c) throw InputError({a.file.string(), 0, ""}, "is no case of worn cloth; garments are made by those that wear");
@@ -328,7 +329,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
       "  gambeson import PATTERN -o pattern.json --svg pattern.svg   then your own: the pattern,\n"
       "  gambeson fabric CARD -o fabric.json                         the lab sheet as a card,\n"
       "  gambeson check CASE                                         the case that names both and who wears them,\n"
-      "  gambeson run CASE                                           and the report (README, \"Your pattern, your cloth, your wearer\")\n\n"
+      "  gambeson run CASE                                           and the report (README, \"Your pattern, your "
+      "cloth, your wearer\")\n\n"
       "gambeson SUBCOMMAND --help says more. The fields of a case: cases/FIELDS.md, or gambeson check --doc.");
   RunArguments run_arguments;
   CheckArguments check_arguments;
@@ -418,8 +420,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
              {batch_arguments.options.out, "--out"}}) {
       checkPath(path, option);
       const std::string_view name = option;
-      if (!path.empty() && (name == "CASE" || name == "STUDY" || name == "RESULTS" || name == "CARD" || name == "CELL" ||
-                            name == "FILE"))
+      if (!path.empty() && (name == "CASE" || name == "STUDY" || name == "RESULTS" || name == "CARD" ||
+                            name == "CELL" || name == "FILE"))
         subject = path.string();
     }
     for (const std::filesystem::path& file : batch_arguments.cases) checkPath(file, "CASE");

@@ -45,8 +45,9 @@ void say(const FlattenedDraft& flat, double limit, std::ostream& out) {
                        100 * b, partText(p, s.b.front()));
   }
   if (const std::string beyond = beyondText(flat, limit); !beyond.empty())
-    out << fmt::format("\nNot to be cut of this fabric, which stands {:.3g} %: {}. Darts or more panels are needed there.\n",
-                       100 * limit, beyond);
+    out << fmt::format(
+        "\nNot to be cut of this fabric, which stands {:.3g} %: {}. Darts or more panels are needed there.\n",
+        100 * limit, beyond);
   out << "\n";
 }
 

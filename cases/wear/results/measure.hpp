@@ -293,7 +293,7 @@ struct StickingMeasure {
 
 struct Measured {
   double recorded_end_s = 0;
-  double counted_from_s = 0;  ///< peaks and mean squares of torques count from here on
+  double counted_from_s = 0;       ///< peaks and mean squares of torques count from here on
   std::optional<Strides> strides;  ///< of the motion, which may go on beyond what was recorded
   /// How far the motion was played: it did not begin, it ended before its first stride began, or before that had ended.
   enum class Played { nothing, lead_in, part_of_a_stride, strides } played = Played::strides;

@@ -78,10 +78,11 @@ std::string stretchMeaning(const Case& c, std::span<const Stretch> measured) {
       most > 0.1 ? fmt::format(", {:.0f} % are {:.0f} cm", 100 * most, 100 * (std::sqrt(1 + 2 * most) - 1)) : "";
   const std::string law =
       allTables(c) ? "The fabric\u2019s law is a table: beyond its range stress is a guess."
-                   : fmt::format("The fabric\u2019s law is a straight line, which its source takes for strains below "
-                                 "{} % (Zheng 2013, eq. 2.13): beyond that stress is extrapolated, and a real fabric "
-                                 "may be stiffer.",
-                                 100 * kStrainOfLaw);
+                   : fmt::format(
+                         "The fabric\u2019s law is a straight line, which its source takes for strains below "
+                         "{} % (Zheng 2013, eq. 2.13): beyond that stress is extrapolated, and a real fabric "
+                         "may be stiffer.",
+                         100 * kStrainOfLaw);
   return fmt::format(
       "Stretch is the Green-Lagrange strain: 1 % is 1 cm on 1 m{}. {}{} {} A largest value far above what 99 % of the "
       "cloth stays below is that of single spots, at corners and seams.",
@@ -245,10 +246,11 @@ std::vector<std::string> assumptionsOf(const Scenario& s, const Measured& m) {
   const bool remembers = std::any_of(c.garments.begin(), c.garments.end(),
                                      [&](const GarmentCase& g) { return lawUse(fabricOf(c, g)).remembers(); });
   say(allTables(c) ? "The fabric is elastic and does not remember: no hysteresis, no plastic strain."
-      : remembers ? "Stretched fabric is elastic; what bent fabric remembers is said with its law. "
-                  "Membrane: linear and orthotropic (Zheng 2013, eq. 2.13)."
-                : "The fabric is elastic and does not remember: no hysteresis, no plastic strain. Membrane: linear and "
-                  "orthotropic (Zheng 2013, eq. 2.13).");
+      : remembers
+          ? "Stretched fabric is elastic; what bent fabric remembers is said with its law. "
+            "Membrane: linear and orthotropic (Zheng 2013, eq. 2.13)."
+          : "The fabric is elastic and does not remember: no hysteresis, no plastic strain. Membrane: linear and "
+            "orthotropic (Zheng 2013, eq. 2.13).");
   for (const GarmentCase& g : c.garments)
     if (const std::string own = ownLawsInWords(g.cloth); !own.empty())
       say((c.garments.size() > 1 ? g.name + ": " : "") + own);

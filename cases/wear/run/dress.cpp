@@ -214,7 +214,8 @@ State sewnAround(const Scenario& s, DressingProgress& progress) {
   std::optional<State> following = progress.take(Donning::following, frequency);
   State state = following ? std::move(*following) : closedAround(s, closed_s, frequency, progress);
   if (closed_s < 0) {
-    if (!following) state.time_s = closed_s;  // a time that others have not seen: what steps keep of the way before does not go on
+    if (!following)
+      state.time_s = closed_s;  // a time that others have not seen: what steps keep of the way before does not go on
     StepWork work;
     makeIntegrator(time.motion, m, *s.stage, time.control(), frequency, work)
         ->advance(0, state,

@@ -59,8 +59,7 @@ CadShape facesOf(const RecordingLayout& layout, const Frame& frame, const char* 
 }
 
 /// Where all the frames that are asked for would make too large a file, as many as do not, and says so.
-void fewerFrames(const Scenario& s, const RecordingReader& recording, AnimationOptions& how,
-                 const ExportOptions& o) {
+void fewerFrames(const Scenario& s, const RecordingReader& recording, AnimationOptions& how, const ExportOptions& o) {
   std::size_t asked = animatedFrames(recording);
   if (how.frames > 0) asked = std::min(asked, static_cast<std::size_t>(how.frames));
   AnimationOptions two = how;
@@ -84,8 +83,8 @@ void writeGlb(const Scenario& s, const RecordingReader& recording, AnimationOpti
   fewerFrames(s, recording, how, o);
   const Animation animation = animationOf(s, recording, how);
   if (!(animation.skin_error_m <= kSkin_m))
-    throw RunError(fmt::format("the body of the animation would be {:.2g} mm off that of the run",
-                               1e3 * animation.skin_error_m));
+    throw RunError(
+        fmt::format("the body of the animation would be {:.2g} mm off that of the run", 1e3 * animation.skin_error_m));
   const Glb glb = encodeGlb(animation.scene);
   writeOwnFile(file, glb.bytes);
   fmt::print("{}: {} frames, {:.1f} MB, cloth within {:.2g} mm of the recording", file.string(),

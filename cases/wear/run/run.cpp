@@ -67,8 +67,8 @@ const char* limbsHint(const Case& c) {
 }
 
 /// Supports that let go after from_s, up to to_s, do so at to_s, where the state is, and cords are drawn as they are
-/// then: steps are made anew. What the energy of the cloth gains by that is theirs, as when points that were held belong
-/// to it. Whether anything changed.
+/// then: steps are made anew. What the energy of the cloth gains by that is theirs, as when points that were held
+/// belong to it. Whether anything changed.
 bool changeSupports(double from_s, double to_s, Scenario& s, State& state, Recorder& recorder, StepWork& work) {
   const std::vector<std::size_t> gone = lettingGo(s.definition, from_s, to_s);
   const bool cords = std::any_of(s.supports.begin(), s.supports.end(), [](const auto& g) { return !g.cord.empty(); });
@@ -107,8 +107,7 @@ void sayNotes(const Scenario& s, std::size_t first = 0) {
 
 void checkRun(const Case& c) {
   // Unusual numbers come first among the notes; whoever checks a file has said them with their lines.
-  const std::size_t unusual =
-      unusualNumbers(schema::caseTable(), schema::writeObject(schema::caseTable(), &c)).size();
+  const std::size_t unusual = unusualNumbers(schema::caseTable(), schema::writeObject(schema::caseTable(), &c)).size();
   const std::unique_ptr<Scenario> scenario = buildScenario(c);
   sayNotes(*scenario, unusual);
   for (const std::string& uncut : uncutText(c, scenario->wardrobe.drafts)) sayNote(uncut);
@@ -191,7 +190,8 @@ int runCase(const Case& c, const RunOptions& options) {
     try {
       steps.make();
       for (; k < windows.count(); ++k) {
-        if (k > 0 && changeSupports(windows.bound(k - 1), windows.bound(k), *scenario, state, recorder, work)) steps.make();
+        if (k > 0 && changeSupports(windows.bound(k - 1), windows.bound(k), *scenario, state, recorder, work))
+          steps.make();
         steps.advance(windows.bound(k + 1), state,
                       [&](const State& before, const State& after, const StepReport& report, const StepResult& w,
                           const Frequency& f) { recorder.observe(before, after, report, w, f); });

@@ -105,13 +105,14 @@ void noteCoarseness(const Case& c, std::span<const Garment> garments, std::span<
         cell = std::max(cell, s.model->cell_m[i]);
     const double N = cell > 0 ? coarseness(garments[k].fabric, cell, g) : 0;
     if (!(N > kCoarse)) continue;
-    const double fine = fineEnough(cell, N);
+    const double fine = fineEnough(cell, N), longer = std::pow(cell / fine, kTimeOfCells);
     s.notes.push_back(fmt::format(
-        "{}cells of up to {:.3g} mm are coarse for cloth that bends so easily: it folds as if it were stiffer, by which "
-        "the end of a strip that hangs is off by {} of its length; cells of {:.2g} mm would do (3 %), and take some {:.0f} "
+        "{}cells of up to {:.3g} mm are coarse for cloth that bends so easily: it folds as if it were stiffer, by "
+        "which "
+        "the end of a strip that hangs is off by {} of its length; cells of {:.2g} mm would do (3 %), and take {} "
         "times as long",
         c.garments[k].name.empty() ? "" : c.garments[k].name + ": ", 1e3 * cell, coarseError(N), 1e3 * fine,
-        std::pow(cell / fine, kTimeOfCells)));
+        longer < 100 ? fmt::format("some {:.0f}", longer) : "more than a hundred"));
   }
 }
 

@@ -57,7 +57,7 @@ struct Scenario {
   std::vector<std::string> contact_regions;
   std::vector<int> contact_region;  ///< of the samples
   std::vector<ContactGroup> contact_groups;
-  std::vector<int> contact_group;     ///< of the samples
+  std::vector<int> contact_group;  ///< of the samples
   /// What a user should know of the case before its results: what bears on these, and what was found in files of the
   /// wearer and of obstacles.
   std::vector<std::string> notes, facts;

@@ -24,7 +24,8 @@ struct FlattenedDraft {
 FlattenedDraft flattenDraft(const Garment& garment);
 
 /// Panels that lie flat only where they are stretched far beyond what their fabric stands (a share of the length): by
-/// twice that in the mean over the area, or by 30 % more somewhere. "sleeve_top_left by 8.1 % in the mean and up to 79 %, ..". Empty where there are none.
+/// twice that in the mean over the area, or by 30 % more somewhere. "sleeve_top_left by up to 79 % (8.1 % in the mean),
+/// .. and 2 more", the worst first. Empty where there are none.
 std::string beyondText(const FlattenedDraft& flat, double limit);
 
 }  // namespace gambeson

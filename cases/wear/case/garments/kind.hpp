@@ -22,7 +22,8 @@ class Table;
 /// What `cell` of a draft means to whoever chooses it.
 inline constexpr const char* kCellDoc =
     "wanted size of a cell, the piece that cloth is computed in: 40 to 50 mm try a case out (a walk in minutes, peaks "
-    "within some 40 %), 20 to 30 mm are for numbers to rely on (most of an hour); half the size takes some ten times as "
+    "within some 40 %), 20 to 30 mm are for numbers to rely on (most of an hour); half the size takes some ten times "
+    "as "
     "long";
 }  // namespace schema
 

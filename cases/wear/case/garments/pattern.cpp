@@ -144,7 +144,8 @@ std::vector<std::string> fitOf(const GarmentMaking& m) {
                           panel.name, name, 100 * d.depth_m, d.segment));
       }
     }
-    if (const std::string text = shortText(panelGirths(pattern, front, back, StandingBody(*m.human, m.posture)), standsOf(m.fabric));
+    if (const std::string text =
+            shortText(panelGirths(pattern, front, back, StandingBody(*m.human, m.posture)), standsOf(m.fabric));
         !text.empty())
       notes.push_back(
           fmt::format("garment \"{}\" is narrower than its wearer before anything is sewn: {}", name, text));

@@ -49,7 +49,8 @@ const GarmentKind shirt_garment{
         [](schema::Table<GarmentCase>& table) {
           table.alternative<ShirtGarment>(
               "shirt", &GarmentCase::shape, schema::shirtTable(),
-              "what the trunk wears, drafted on the human over the garments before it: without `sleeve_length` a vest that "
+              "what the trunk wears, drafted on the human over the garments before it: without `sleeve_length` a vest "
+              "that "
               "hangs on straps, as armour has it, of six patches (front, back, strap_left, strap_right, side_wrap, "
               "belly); with it a shirt, whose sleeves are four more each (sleeve_front, sleeve_top, sleeve_back, "
               "sleeve_under, _left and _right)");
