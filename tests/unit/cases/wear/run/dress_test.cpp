@@ -122,7 +122,7 @@ TEST(Dress, GoesOnFromWhereItWasStopped) {
   const int all = dressUpTo(-1);
   ASSERT_GT(all, 6);
   std::size_t furthest = 0;
-  for (const int at : {1, all / 2, all - 1}) {
+  for (const int at : {all / 2, all - 1}) {
     SCOPED_TRACE(at);
     ASSERT_EQ(dressUpTo(at), at);
     DressingProgress progress(file, "this run", true);
