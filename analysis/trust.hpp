@@ -33,12 +33,15 @@ struct Trust {
   int failing = 0;    ///< checks that do not hold
   int spoiling = 0;   ///< of them those that leave none of the numbers
   int stretched = 0;  ///< fabrics beyond their range
+  int unplayed = 0;   ///< runs that ended before what they are to judge began
   void check(bool holds, bool spoils) { failing += !holds, spoiling += !holds && spoils; }
   void stretch(const Stretch& s) { stretched += !s.holds(); }
-  void add(const Trust& t) { failing += t.failing, spoiling += t.spoiling, stretched += t.stretched; }
+  void add(const Trust& t) {
+    failing += t.failing, spoiling += t.spoiling, stretched += t.stretched, unplayed += t.unplayed;
+  }
   /// No check says not to rely on the numbers.
   bool reliable() const { return failing == 0; }
-  bool whole() const { return reliable() && stretched == 0; }
+  bool whole() const { return reliable() && stretched == 0 && unplayed == 0; }
 };
 
 /// The light that may be shown: green only where everything holds, none at all where a check spoils the numbers.

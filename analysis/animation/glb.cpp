@@ -333,4 +333,30 @@ class Encoder {
 
 Glb encodeGlb(const AnimatedScene& scene) { return Encoder(scene).encode(); }
 
+double GlbSize::bytes(std::size_t times) const {
+  const auto F = static_cast<double>(times);
+  return rest + of_time * F + of_pair * F * (F - 1);
+}
+
+std::size_t GlbSize::most(double largest) const {
+  // of_pair F^2 + (of_time - of_pair) F + rest - largest = 0, in the form that has no difference of near numbers.
+  const double room = largest - rest, b = of_time - of_pair;
+  const double F = room > 0 ? 2 * room / (b + std::sqrt(b * b + 4 * of_pair * room)) : 0;
+  return F >= 1 ? static_cast<std::size_t>(F) : 0;
+}
+
+GlbSize glbSize(const AnimatedScene& few) {
+  constexpr double kNode = 28;   ///< turn and place
+  constexpr double kSaid = 160;  ///< JSON of a morph target: its accessor with bounds, its name, its weight at rest
+  GlbSize size;
+  size.of_time = sizeof(float);
+  for (const MovedNode& n : few.nodes) size.of_time += n.at.size() > 1 ? kNode : 0;
+  for (const MovingMesh& m : few.moving) {
+    size.of_time += 8 * static_cast<double>(m.at.at(0).size() / 3) + 3 * sizeof(float) + kSaid;
+    size.of_pair += sizeof(float);
+  }
+  size.rest = static_cast<double>(encodeGlb(few).bytes.size()) - size.bytes(few.time_s.size());
+  return size;
+}
+
 }  // namespace gambeson

@@ -25,4 +25,17 @@ struct Glb {
 /// std::logic_error for a scene that does not fit together.
 Glb encodeGlb(const AnimatedScene& scene);
 
+/// How large a .glb becomes with the number F of its times [bytes]: of_time F + of_pair F (F - 1) + the rest. Of each
+/// time there are 28 bytes of a node that moves, 8 of a vertex that moves by itself; of each pair 4 of such a mesh,
+/// whose morph targets have a weight each at every time.
+struct GlbSize {
+  double rest = 0, of_time = 0, of_pair = 0;
+  double bytes(std::size_t times) const;
+  /// The most times of a file of at most so many bytes; 0 where there is none.
+  std::size_t most(double bytes) const;
+};
+
+/// From a scene of a few times, the first and the last among them: within 1 % of what encodeGlb makes of all.
+GlbSize glbSize(const AnimatedScene& few);
+
 }  // namespace gambeson

@@ -47,7 +47,7 @@ std::string answers(const ReportInput& in, const JointSummary& j) {
   list += item("When", seconds(j.peak_time_s));
   list += item("Cause", j.cause.empty() ? "not known" : j.cause);
   list += item("Share of the natural moment", j.natural_percent ? shareOf(j) + (in.task.empty() ? "" : " in " + in.task)
-                                                                : "not known: this task has no reference moment");
+                                                                : "not known: " + in.no_share);
   if (j.friction_percent) list += item("Part of it from friction", percent(*j.friction_percent));
   if (j.drag_percent) list += item("Part of it from air drag", percent(*j.drag_percent));
   return element("dl", list, " class=\"answers\"");
@@ -76,11 +76,41 @@ std::string alarms(const ReportInput& in) {
   for (const auto& w : in.warnings) out += element("p", escape(w), " class=\"alarm\" role=\"alert\"");
   const Trust trust = trustOf(in);
   if (!trust.reliable()) out += alarmOf(in.audit);
-  for (const auto& n : in.notes) out += notice(n);
   if (const Stretch* worst = worstOf(in.stretch); trust.stretched > 0)
     out += notice(sentenceOf(*worst) +
                   (in.joints.empty() && in.comfort_tables.empty() ? "" : " No light of this page is green for that."));
   return out;
+}
+
+/// What bears on the headline stands in it, at its end; more than a few fold.
+std::string notesOf(const std::vector<std::string>& notes) {
+  constexpr std::size_t few = 3;
+  std::string items;
+  for (const std::string& n : notes) items += element("li", escape(n));
+  const std::string list = element("ul", items, " class=\"notes\"");
+  if (notes.size() <= few) return notes.empty() ? "" : element("div", list, " class=\"notice\"");
+  return element("details", element("summary", fmt::format("{} notes that bear on this result", notes.size())) + list,
+                 " class=\"notice\"");
+}
+
+/// What was found in files and made of measures, under the words that several begin with.
+std::string foundText(const std::vector<std::string>& facts) {
+  if (facts.empty()) return "";
+  std::vector<std::pair<std::string, std::string>> groups;  // words, items
+  for (const std::string& fact : facts) {
+    const std::size_t colon = fact.find(": ");
+    const std::string about = colon == std::string::npos ? "" : fact.substr(0, colon);
+    auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return g.first == about; });
+    if (group == groups.end()) group = groups.insert(group, {about, ""});
+    group->second += element("li", escape(about.empty() ? fact : fact.substr(colon + 2)));
+  }
+  std::string body;
+  for (const auto& [about, items] : groups)
+    body += (about.empty() ? "" : element("p", escape(capital(about)), " class=\"about\"")) +
+            element("ul", items, " class=\"notes\"");
+  return element("details",
+                 element("summary", fmt::format("What was found of wearer and scene ({} notes)", facts.size())) + body,
+                 " class=\"facts\"");
 }
 
 std::string jointName(const JointSummary& j) { return capital(j.joint) + (j.side.empty() ? "" : ", " + j.side); }
@@ -156,8 +186,7 @@ std::string tableOf(const Table& t) {
   };
   std::string head;
   for (std::size_t c = 0; c < t.columns.size(); ++c)
-    head += element("th", escape(t.columns[c]),
-                    ofNumbers(c) ? " scope=\"col\" class=\"number\"" : " scope=\"col\"");
+    head += element("th", escape(t.columns[c]), ofNumbers(c) ? " scope=\"col\" class=\"number\"" : " scope=\"col\"");
   std::string body;
   for (const auto& row : t.rows) {
     std::string cells;
@@ -266,6 +295,7 @@ Trust trustOf(const ReportInput& input) {
   Trust trust;
   for (const AuditCheck& c : input.audit) trust.check(c.holds(), c.spoils);
   for (const Stretch& s : input.stretch) trust.stretch(s);
+  trust.unplayed = !input.played;
   return trust;
 }
 
@@ -298,7 +328,7 @@ std::string headlineOf(const ReportInput& input) {
 }
 
 std::string formatReport(const ReportInput& in) {
-  std::string body = alarms(in) + headline(in);
+  std::string body = alarms(in) + headline(in) + notesOf(in.notes) + foundText(in.found);
   if (!in.joints.empty() || in.outcome.empty())
     body +=
         pageSectionOf("joints", "What each joint pays",

@@ -110,9 +110,13 @@ struct ReportInput {
   std::string description;            ///< who wears what and does what, in one or two sentences
   std::string task;                   ///< names the reference: "walking at natural speed"; empty where there is none
   std::vector<std::string> warnings;  ///< shown at the top: "The run stopped at 1.2 s: ..."
-  std::vector<std::string> notes;     ///< below them, in a milder tone: what to bear in mind
-  std::vector<JointSummary> joints;   ///< the headline is the largest |peak|
-  std::string outcome;                ///< the headline of a run without joints, one or two sentences
+  bool played = true;  ///< what the run is to judge was played; else no light is green, and a warning says why
+  std::string no_share = "this task has no reference moment";  ///< why a share of the natural moment is not known
+  std::vector<std::string> notes;  ///< in a milder tone, with the headline: what bears on it
+  std::vector<std::string> found;  ///< folded below the headline: what was found and made on the way; those with the
+                                   ///< same words before their first colon stand under these
+  std::vector<JointSummary> joints;  ///< the headline is the largest |peak|
+  std::string outcome;               ///< the headline of a run without joints, one or two sentences
   std::vector<Plot> torques;
   std::vector<BarChart> contact_charts;
   std::vector<Table> contact_tables, stress_tables, support_tables;

@@ -29,7 +29,7 @@ dl.answers dd { margin:0; font-weight:600; } dl.answers .reason { font-weight:40
 .card { background:var(--paper); border:1px solid var(--line); border-top:4px solid var(--accent); border-radius:10px; padding:14px 16px; }
 .card.left { border-top-color:var(--left); } .card.right { border-top-color:var(--right); }
 .card .big { font-size:1.9rem; font-weight:700; line-height:1.15; margin:2px 0 6px; }
-.card .big small { font-size:1rem; font-weight:600; }
+.card .big small { font-size:1rem; font-weight:600; white-space:nowrap; }
 .card h3 { margin:0; } .card h3 .tag { float:right; font-size:.75rem; font-weight:600; color:var(--accent); border:1px solid var(--accent); border-radius:99px; padding:0 8px; }
 .card p { margin:0; font-size:.95rem; } .card p.soft { color:var(--soft); }
 .cards.reasons { grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr)); } .cards.reasons .card:first-child:nth-last-child(odd) { grid-column:1 / -1; } .cards.reasons .card { border-top-color:var(--accent); } .cards.reasons p { margin-top:6px; }
@@ -67,6 +67,7 @@ th[scope=row] { font-weight:500; } td.number, th.number { text-align:right; font
 .judged + .answers { margin-top:18px; }
 tr.group th, tr.group td { background:var(--ground); } tr.group th { padding-left:8px; font-weight:600; } td small, th small { color:var(--soft); font-size:.86rem; font-weight:400; }
 .sentences { min-width:min(15rem,55vw); } ul.plain { list-style:none; margin:0; padding:0; min-width:min(16.5rem,50vw); } ul.plain li + li { margin-top:4px; }
+ul.notes { margin:0; padding-left:20px; } ul.notes li + li { margin-top:4px; } .notice summary { color:inherit; } .notice[open] summary { margin-bottom:6px; } details.facts { padding:0 4px; } details.facts .about { margin:8px 0 2px; font-weight:600; } details.facts ul { color:var(--soft); font-size:.95rem; columns:2 420px; column-gap:36px; } details.facts li { break-inside:avoid; }
 details { margin-top:14px; } summary { cursor:pointer; color:var(--accent); font-weight:600; }
 .notice { background:#fff6df; border:1px solid #d8b25a; border-radius:8px; padding:8px 12px; margin:10px 0 0; color:#5c4300; font-size:.95rem; }
 .alarm { background:#fdecec; border:2px solid var(--bad); border-radius:10px; padding:12px 16px; margin:16px 0 0; color:#6d1010; font-weight:600; }

@@ -1,6 +1,8 @@
 #pragma once
 /// What cloth is made of, as a case has it.
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -28,12 +30,18 @@ struct EnergySource {
 /// A fabric, and how far it may be stretched: what no force depends on, but the verdict.
 struct FabricCase : Fabric {
   std::optional<double> limit_strain_weft, limit_strain_warp;  ///< Green-Lagrange strains; absent: those of the law
-  std::filesystem::path card;  ///< that it is of (cases/cloth/card.hpp); empty: none
-  std::optional<EnergySource> energy_source;  ///< that `energy` is of
+  std::filesystem::path card;                                  ///< that it is of (cases/cloth/card.hpp); empty: none
+  std::optional<EnergySource> energy_source;                   ///< that `energy` is of
   bool operator==(const FabricCase&) const = default;
 };
 
 /// Strain below which the source of the fabric's law takes it to be a straight line (Zheng 2013, eq. 2.13).
 constexpr double kStrainOfLaw = 0.02;
+
+/// By what share of its length it may be stretched: its own limit, the smaller of weft and warp, else that of its law.
+inline double standsOf(const FabricCase& f) {
+  const double E = std::min(f.limit_strain_weft.value_or(kStrainOfLaw), f.limit_strain_warp.value_or(kStrainOfLaw));
+  return std::sqrt(1 + 2 * E) - 1;  // of Green-Lagrange: (1 + e)^2 = 1 + 2 E
+}
 
 }  // namespace gambeson

@@ -56,6 +56,10 @@ void addRun(CLI::App& app, RunArguments& a) {
   addOverrides(run, a.overrides);
   addDevice(run, a.device);
   run.footer(
+      "Time goes with the size of cells (garment.NAME.cell): a walk takes minutes with 50 mm and most of an hour with "
+      "20; half\n"
+      "the size takes some ten times as long. Run gambeson check first, stand before you walk, and walk coarse before "
+      "fine.\n\n"
       "Leaves in DIR: report.html (start here), summary.json (all numbers), torques.csv, contact.csv, zones.csv,\n"
       "stress.csv, patches.csv, straps.csv, collisions.csv, energy.csv, memory.csv, latitude.csv, snapshots/\n"
       "(pictures) and frames.xdmf (the recording, for ParaView). Static, dynamic and modal cases leave path.csv "
@@ -251,7 +255,10 @@ void addExport(CLI::App& app, ExportArguments& a) {
           "scale is that of pictures")
       ->type_name("FIELD")
       ->capture_default_str();
-  command.add_option("--frames", a.options.frames, "Of animations: at most so many frames, evenly [all of the motion]")
+  command
+      .add_option("--frames", a.options.frames,
+                  "Of animations: at most so many frames, evenly; of a .glb fewer where it would have more than 100 MB "
+                  "[all of the motion]")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000));
   command
@@ -303,10 +310,11 @@ void addFabric(CLI::App& app, FabricArguments& a) {
                   "Folder for what the laboratory measures [results/<name of the card>, without -o]")
       ->type_name("DIR");
   command
-      .add_option("--test", a.tests,
-                  "bending (KES-FB2, to 2.5/cm either way), shear (KES-FB1, to 8 degrees), tension (KES-FB1), bias "
-                  "(FAST-3, EB5), cantilever (ASTM D1388) or drape (Cusick, about a minute); may be given several times [those "
-                  "whose numbers the card has]")
+      .add_option(
+          "--test", a.tests,
+          "bending (KES-FB2, to 2.5/cm either way), shear (KES-FB1, to 8 degrees), tension (KES-FB1), bias "
+          "(FAST-3, EB5), cantilever (ASTM D1388) or drape (Cusick, about a minute); may be given several times [those "
+          "whose numbers the card has]")
       ->type_name("TEST")
       ->allow_extra_args(false)
       ->check(CLI::IsMember({"bending", "shear", "tension", "bias", "cantilever", "drape"}).description(""));
@@ -333,7 +341,9 @@ void addFabric(CLI::App& app, FabricArguments& a) {
       ->type_name("NAME")
       ->capture_default_str()
       ->check(CLI::IsMember(wordsOf(schema::bendingElements())).description(""));
-  command.add_option("--cells", a.options.specimen.cells, "Cells between the clamps; a draped ring has half of them across and six times as many around")
+  command
+      .add_option("--cells", a.options.specimen.cells,
+                  "Cells between the clamps; a draped ring has half of them across and six times as many around")
       ->type_name("N")
       ->capture_default_str()
       ->check(CLI::Range(4, 200).description(""));

@@ -61,7 +61,8 @@ const std::vector<SortByEnding>& sortsByEnding() {
       {{".urdf"}, {"skeleton (URDF)", loadUrdf, "human.urdf of a case takes it"}},
       {{".dxf"}, {"flat pattern (DXF)", [](const Path& f) { importPattern(f, {}); }, "gambeson import reads it"}},
       {{".obj", ".ply", ".stl", ".gltf", ".glb"},
-       {"triangle mesh", [](const Path& f) { loadTriangles(f); }, "obstacles and garments of a case take it"}}};
+       {"triangle mesh", [](const Path& f) { loadTriangles(f); },
+        "obstacles, garment.mesh_file and human.scan of a case take it"}}};
   return all;
 }
 

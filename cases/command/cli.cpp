@@ -144,7 +144,7 @@ int draft(const DraftArguments& a, std::ostream& out) {
   if (a.flat) {
     const std::size_t garment = garmentCalled(*c, a.garment);
     checkOutput(a.garment_file, "--output", inputsOf(any));
-    flatToFile(draftOf(*c, garment), a.garment_file, out);
+    flatToFile(draftOf(*c, garment), a.garment_file, standsOf(fabricOf(*c, c->garments[garment])), out);
     return done;
   }
   draftToFile(*c, a.garment, a.garment_file, ending == ".obj", out);
@@ -330,7 +330,12 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   app.require_subcommand(1);
   app.footer(
       "Start with:\n"
-      "  gambeson run cases/library/shorts_walk.json\n\n"
+      "  gambeson run cases/library/shorts_walk.json            a case of the library: a report in minutes\n"
+      "  gambeson import PATTERN -o pattern.json --svg pattern.svg   then your own: the pattern,\n"
+      "  gambeson fabric CARD -o fabric.json                         the lab sheet as a card,\n"
+      "  gambeson check CASE                                         the case that names both and who wears them,\n"
+      "  gambeson run CASE                                           and the report (README, \"Your pattern, your "
+      "cloth, your wearer\")\n\n"
       "gambeson SUBCOMMAND --help says more. The fields of a case: cases/FIELDS.md, or gambeson check --doc.");
   RunArguments run_arguments;
   CheckArguments check_arguments;

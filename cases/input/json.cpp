@@ -68,8 +68,8 @@ std::string reasonOf(const std::string& what) {
 /// Builds the tree from nlohmann's events. Not recursive, so that depth costs no stack.
 class TreeBuilder {
  public:
-  TreeBuilder(std::string file, const LineCount& count, int max_depth)
-      : file_(std::move(file)), count_(count), max_depth_(max_depth) {}
+  TreeBuilder(std::string file, const LineCount& count, const JsonLimits& limits)
+      : file_(std::move(file)), count_(count), limits_(limits) {}
 
   JsonNode root;
 
@@ -125,6 +125,9 @@ class TreeBuilder {
   }
 
   JsonNode& add(JsonNode::Type type) {
+    if (++values_ > limits_.values)
+      throw InputError({file_, count_.token_line, ""},
+                       fmt::format("more than {} values; at most so many are read", limits_.values));
     JsonNode* node = &root;
     if (!open_.empty()) {
       node = &open_.back()->children.emplace_back();
@@ -141,8 +144,8 @@ class TreeBuilder {
     return true;
   }
   bool open(JsonNode::Type type) {
-    if (static_cast<int>(open_.size()) >= max_depth_)
-      throw InputError({file_, count_.token_line, ""}, fmt::format("nested deeper than {} levels", max_depth_));
+    if (static_cast<int>(open_.size()) >= limits_.depth)
+      throw InputError({file_, count_.token_line, ""}, fmt::format("nested deeper than {} levels", limits_.depth));
     open_.push_back(&add(type));
     keys_.emplace_back();
     return true;
@@ -155,7 +158,8 @@ class TreeBuilder {
 
   std::string file_;
   const LineCount& count_;
-  int max_depth_;
+  const JsonLimits& limits_;
+  std::size_t values_ = 0;  ///< nodes made
   std::string key_;
   int key_line_ = 0;
   std::vector<JsonNode*> open_;  ///< a node's address holds while it is open: only its own children grow
@@ -198,7 +202,7 @@ JsonNode parseJson(std::string_view text, const std::string& file, const JsonLim
     throw InputError({file, 0, ""}, fmt::format("{} bytes; at most {} are read", text.size(), limits.bytes));
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) throw InputError({file, 0, ""}, "the file is empty");
   LineCount count;
-  TreeBuilder builder(file, count, limits.depth);
+  TreeBuilder builder(file, count, limits);
   const CountingIterator begin(text.data(), &count), end(text.data() + text.size(), &count);
   Json::sax_parse(begin, end, &builder);
   return std::move(builder.root);

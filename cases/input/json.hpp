@@ -37,6 +37,9 @@ std::string describe(const JsonNode& node);
 struct JsonLimits {
   std::size_t bytes = 1 << 20;
   int depth = 32;
+  /// Values of all depths. The node of one takes 136 bytes and room to grow, so that a file of two bytes a value
+  /// ("0,0,0") would need a hundred times its size: this keeps any file below half a gigabyte.
+  std::size_t values = 2'000'000;
 };
 
 /// Throws InputError with line and key: syntax, duplicate keys, numbers out of the range of double, NaN and Infinity

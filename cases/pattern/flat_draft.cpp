@@ -21,7 +21,7 @@ namespace {
 /// Sides of seams that differ by more than this are said.
 constexpr double ease_share = 1e-3;
 
-void say(const FlattenedDraft& flat, std::ostream& out) {
+void say(const FlattenedDraft& flat, double limit, std::ostream& out) {
   const FlatPattern& p = flat.pattern;
   double area = 0;
   std::size_t widest = 5;
@@ -44,19 +44,23 @@ void say(const FlattenedDraft& flat, std::ostream& out) {
     out << fmt::format("  {:4} {:7.2f} cm of {}, {:7.2f} cm of {}\n", s.name, 100 * a, partText(p, s.a.front()),
                        100 * b, partText(p, s.b.front()));
   }
+  if (const std::string beyond = beyondText(flat, limit); !beyond.empty())
+    out << fmt::format(
+        "\nNot to be cut of this fabric, which stands {:.3g} %: {}. Darts or more panels are needed there.\n",
+        100 * limit, beyond);
   out << "\n";
 }
 
 }  // namespace
 
-void flatToFile(const Garment& garment, const std::filesystem::path& file, std::ostream& out) {
+void flatToFile(const Garment& garment, const std::filesystem::path& file, double limit, std::ostream& out) {
   const FlattenedDraft flat = flattenDraft(garment);
   std::string ending = file.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
   writeOwnFile(file, ending == ".dxf"   ? patternDxf(flat.pattern)
                      : ending == ".svg" ? patternSvg(flat.pattern)
                                         : patternText(flat.pattern));
-  say(flat, out);
+  say(flat, limit, out);
   out << "Pattern: " << file.string() << "\n";
 }
 

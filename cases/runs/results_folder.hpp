@@ -9,6 +9,9 @@
 
 namespace gambeson {
 
+/// What a run goes on from that is stopped while it dresses.
+inline constexpr const char* kDressingFile = "dressing.h5";
+
 using Paths = std::vector<std::filesystem::path>;
 
 /// Throws InputError ("command line", --out) where a run that writes into `out` would replace something: a file that is

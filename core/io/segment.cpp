@@ -134,6 +134,10 @@ std::string layoutImage(const RecordingLayout& layout) {
 RecordingLayout readLayout(const fs::path& directory) {
   const fs::path path = layoutPath(directory);
   if (!fs::exists(path)) throw InputError(at(directory), "holds no recording (frames/layout.h5 is missing)");
+  return layoutIn(path);
+}
+
+RecordingLayout layoutIn(const fs::path& path) {
   const hdf5::File file = openFile(path);
   return reading(path, [&] {
     requireFormat(file, path, kLayoutFormat, kLayoutVersion);

@@ -46,6 +46,8 @@ std::string controlPath(int frame, const std::string& field);
 std::string bodyPath(int frame, const std::string& field);
 
 std::string layoutImage(const RecordingLayout& layout);
+/// What a file of that image says. Throws InputError where it is damaged.
+RecordingLayout layoutIn(const std::filesystem::path& file);
 
 /// A segment in the making: appends go to memory, `finish` gives the bytes of the closed file.
 class SegmentBuilder {

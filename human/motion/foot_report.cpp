@@ -7,7 +7,7 @@
 
 namespace gambeson {
 
-std::optional<FootReport> footReport(const Human& human, const Motion& motion, double step_s) {
+std::optional<FootReport> footReport(const Human& human, const Motion& motion, double until_s, double step_s) {
   constexpr double standing_m = 5e-3, h = 1e-4;
   std::vector<const BodyShape*> feet;
   for (const BodyShape& s : human.shapes)
@@ -19,11 +19,12 @@ std::optional<FootReport> footReport(const Human& human, const Motion& motion, d
     return linkPoses(human.skeleton, p.q, p.root);
   };
   FootReport out;
-  const int n = std::max(1, static_cast<int>(std::ceil(motion.duration() / step_s)));
+  const double end = std::min(until_s, motion.duration());
+  const int n = std::max(1, static_cast<int>(std::ceil(end / step_s)));
   int carries = -1;
   double way = 0;
   for (int i = 0; i <= n; ++i) {
-    const double t = motion.duration() * i / n, t0 = std::max(0.0, t - h), t1 = std::min(motion.duration(), t + h);
+    const double t = end * i / n, t0 = std::max(0.0, t - h), t1 = std::min(motion.duration(), t + h);
     const auto X = poses(t), before = poses(t0), after = poses(t1);
     double least = 0, speed = 0;
     int stance = -1;
@@ -43,7 +44,7 @@ std::optional<FootReport> footReport(const Human& human, const Motion& motion, d
     if (stance != carries) carries = stance, way = 0;
     if (stance < 0) continue;
     if (speed > out.slip_m_per_s) out.slip_m_per_s = speed, out.slip_time_s = t;
-    way += speed * motion.duration() / n;
+    way += speed * end / n;
     out.slip_m = std::max(out.slip_m, way);
   }
   return out;

@@ -1,6 +1,7 @@
 #pragma once
 /// Whether a motion's feet could stand on the ground.
 
+#include <limits>
 #include <optional>
 
 #include "human/motion/motion.hpp"
@@ -15,7 +16,9 @@ struct FootReport {
 };
 
 /// Of all shapes on links whose name begins with "foot", against the motion's stairs or the ground z = 0, every
-/// `step_s`. The stance foot is the slowest of those within 5 mm of it or below. None where the human has no feet.
-std::optional<FootReport> footReport(const Human& human, const Motion& motion, double step_s = 0.005);
+/// `step_s` up to the motion's end, or until_s. The stance foot is the slowest of those within 5 mm of it or below.
+/// None where the human has no feet.
+std::optional<FootReport> footReport(const Human& human, const Motion& motion,
+                                     double until_s = std::numeric_limits<double>::infinity(), double step_s = 0.005);
 
 }  // namespace gambeson

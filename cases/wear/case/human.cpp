@@ -13,20 +13,20 @@ namespace gambeson {
 
 namespace {
 
-void tell(std::vector<std::string>* notes, const std::string& note) {
-  if (notes) notes->push_back(note);
+void tell(WearerNotes* notes, const std::string& fact) {
+  if (notes) notes->facts.push_back(fact);
 }
 
-Human measured(const ManikinMeasures& measures, std::vector<std::string>* notes) {
+Human measured(const ManikinMeasures& measures, WearerNotes* notes) {
   MeasuresReport made;
   Human human = underKey("manikin", [&] { return makeManikin(measures, &made); });
   for (const MadeGirth& g : made.girths)
     tell(notes, fmt::format("manikin: {} {:.1f} cm, asked for {:.1f} cm", g.name, 100 * g.made_m, 100 * g.asked_m));
-  for (const std::string& note : made.notes) tell(notes, "manikin: " + note);
+  if (notes) notes->notes.insert(notes->notes.end(), made.notes.begin(), made.notes.end());
   return human;
 }
 
-Human fromCharacter(const CharacterOptions& options, std::vector<std::string>* notes) {
+Human fromCharacter(const CharacterOptions& options, WearerNotes* notes) {
   CharacterReport found;
   Human human = loadCharacter(options, &found);
   const std::string file = options.file.filename().string();
@@ -37,7 +37,7 @@ Human fromCharacter(const CharacterOptions& options, std::vector<std::string>* n
   return human;
 }
 
-Human fromScan(const ScanOptions& options, std::vector<std::string>* notes) {
+Human fromScan(const ScanOptions& options, WearerNotes* notes) {
   ScanReport found;
   Human human = loadScan(options, &found);
   const std::string file = options.file.filename().string();
@@ -52,7 +52,7 @@ Human fromScan(const ScanOptions& options, std::vector<std::string>* notes) {
 
 }  // namespace
 
-Human skeletonOf(const HumanCase& h, std::vector<std::string>* notes) {
+Human skeletonOf(const HumanCase& h, WearerNotes* notes) {
   if (!h.manikin.empty()) return makeManikin(h.manikin);
   if (h.measures) return measured(*h.measures, notes);
   if (h.character) return fromCharacter(*h.character, notes);
@@ -61,7 +61,7 @@ Human skeletonOf(const HumanCase& h, std::vector<std::string>* notes) {
   return h.body.empty() ? loadUrdf(h.urdf) : loadHuman(h.urdf, h.body);
 }
 
-Human humanOf(const HumanCase& h, std::vector<std::string>* notes) {
+Human humanOf(const HumanCase& h, WearerNotes* notes) {
   Human human = skeletonOf(h, notes);
   if (h.skin) human.skin = std::make_shared<const Skin>(makeSkin(human, *h.skin));
   return human;

@@ -66,6 +66,7 @@ class ArchiveWriter {
     to_ = nullptr;
     return *this;
   }
+  bool has(const char*) const { return true; }
   /// Values that stand under the same name.
   template <class... T>
   void items(const T&... values) {
@@ -126,6 +127,8 @@ class ArchiveReader {
     from_ = nullptr;
     return *this;
   }
+  /// Whether there are values of that name, which recordings from before may lack.
+  bool has(const std::string& name) const { return values_.contains(name_.empty() ? name : name_ + '.' + name); }
   template <class... T>
   void items(T&... values) {
     (get(values), ...);

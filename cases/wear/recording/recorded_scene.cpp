@@ -31,14 +31,15 @@ struct RecordedScene {
   std::optional<FootReport> feet;
   std::vector<RecordedObstacle> obstacles;
   Wardrobe wardrobe;
-  std::vector<std::string> notes;
+  std::vector<std::string> notes, facts;
 };
 template <class A, Of<RecordedScene> T>
 void fields(A& a, T& s) {
-  auto& [human, motion, velocity, ramp, dressed, shrunk, shrunk_skin, feet, obstacles, wardrobe, notes] = s;
+  auto& [human, motion, velocity, ramp, dressed, shrunk, shrunk_skin, feet, obstacles, wardrobe, notes, facts] = s;
   a("human", human)("motion", motion)("mean_velocity", velocity)("air_ramp", ramp)("dressed", dressed);
   a("shrunk", shrunk)("shrunk_skin", shrunk_skin)("feet", feet)("obstacles", obstacles);
   a("garments", wardrobe.drafts)("meshes", wardrobe.meshes)("notes", notes);
+  if (a.has("facts")) a("facts", facts);  // recordings from before have none
 }
 
 std::map<std::string, Values> sceneOf(const Scenario& s) {
@@ -60,6 +61,7 @@ std::map<std::string, Values> sceneOf(const Scenario& s) {
   }
   scene.wardrobe = s.wardrobe;
   scene.notes = s.notes;
+  scene.facts = s.facts;
   ArchiveWriter archive;
   fields(archive, scene);
   return archive.values();
@@ -80,6 +82,7 @@ std::unique_ptr<Scenario> scenarioOf(const Case& c, const std::map<std::string, 
     bodies.obstacles.push_back({std::move(o.shape), o.origin_m,
                                 o.snapshots ? std::make_unique<const MeshSequence>(std::move(*o.snapshots)) : nullptr});
   bodies.notes = std::move(scene.notes);
+  bodies.facts = std::move(scene.facts);
   if (bodies.obstacles.size() != c.obstacles.size() || scene.wardrobe.drafts.size() != c.garments.size() ||
       scene.wardrobe.meshes.size() != c.garments.size() || bodies.human.has_value() != c.human.has_value())
     throw InputError({file, 0, ""}, "damaged file of a recording: its scene is not that of its case");

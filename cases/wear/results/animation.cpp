@@ -216,6 +216,8 @@ class Maker {
 
 }  // namespace
 
+std::size_t animatedFrames(const RecordingReader& recording) { return framesOf(recording, 0).size(); }
+
 Animation animationOf(const Scenario& s, const RecordingReader& recording, const AnimationOptions& o) {
   return Maker(s, recording, o).make();
 }

@@ -24,6 +24,9 @@ struct Animation {
   double skin_error_m = 0;
 };
 
+/// How many frames the animation of a recording has where all are shown.
+std::size_t animatedFrames(const RecordingReader& recording);
+
 /// The frames of the motion (of dressing, where a run ended before). Colours as in pictures (fieldRange). Throws
 /// RunError where there is no frame, or none with that field.
 Animation animationOf(const Scenario& scenario, const RecordingReader& recording, const AnimationOptions& options);

@@ -145,6 +145,15 @@ std::vector<std::vector<double>> standingTorques(const Scenario& s, const Record
   return torques;
 }
 
+/// After windows and strides. Motions without strides are played as far as they go.
+Measured::Played playedOf(const Measured& m) {
+  using Played = Measured::Played;
+  if (m.windows.empty()) return Played::nothing;
+  const double end = m.windows.back().end_s + 1e-9;
+  if (!m.strides || end > m.strides->start_s + m.strides->time_s) return Played::strides;
+  return end > m.strides->start_s + 2e-9 ? Played::part_of_a_stride : Played::lead_in;
+}
+
 /// The task's own peak moment at a joint. Throws InputError where the published data have no such joint.
 std::optional<double> naturalMoment(const Scenario& s, const JointMeasure& m) {
   switch (s.definition.analysis.task) {
@@ -196,6 +205,7 @@ void measureJoints(const Scenario& s, const RecordingReader& recording, const Re
   if (const auto kg = kindOf(*s.definition.human).carried_kg(s.definition.human->motion);
       kg && s.definition.analysis.task == Task::aiming)
     held = peakStaticMoments(*s.human, *s.motion, rifleInHands(*s.human, *kg));
+  if (time.empty()) return;  // nothing to speak of
   for (const int j : joints) {
     JointMeasure m;
     m.joint = j;
@@ -228,7 +238,8 @@ void measureJoints(const Scenario& s, const RecordingReader& recording, const Re
     m.position_at_peak = q(m.peak.time_s);
     m.rate_at_peak = (q(m.peak.time_s + kRate_s) - q(m.peak.time_s - kRate_s)) / (2 * kRate_s);
     if (!held.empty()) m.held = held[static_cast<std::size_t>(j)];
-    if (s.definition.analysis.task != Task::none) {
+    // The task's moment is that of its strides.
+    if (s.definition.analysis.task != Task::none && out.played != Measured::Played::lead_in) {
       try {
         m.natural_Nm = naturalMoment(s, m);
       } catch (const InputError&) {  // the published data have no such joint; the page says "not known"
@@ -241,7 +252,7 @@ void measureJoints(const Scenario& s, const RecordingReader& recording, const Re
     if (const auto& strides = out.strides) {
       const double T = strides->time_s, start = strides->start_s, end = strides->end_s();
       if (m.peak.time_s >= start) m.phase_at_peak = strides->phase(m.peak.time_s, m.side);
-      m.phase_of_highest = highestPhase(s, *strides, m);
+      if (out.played == Measured::Played::strides) m.phase_of_highest = highestPhase(s, *strides, m);
       for (int k = 0; k < strides->count; ++k) {
         std::vector<double> t, values;
         for (std::size_t w = 0; w < time.size(); ++w)
@@ -390,6 +401,7 @@ Measured measure(const Scenario& s, const RecordingReader& recording) {
   out.windows = windowsOf(bodies, s.bodies);
   out.drag = windowsOf(inMotion(recording, "drag"), s.bodies);
   out.counted_from_s = countedFrom(s, recording);
+  out.played = playedOf(out);
   measureBodies(s, bodies, out);
   if (s.human) measureJoints(s, recording, bodies, out);
   measureZones(s, recording, out);

@@ -293,8 +293,10 @@ struct StickingMeasure {
 
 struct Measured {
   double recorded_end_s = 0;
-  double counted_from_s = 0;  ///< peaks and mean squares of torques count from here on
-  std::optional<Strides> strides;
+  double counted_from_s = 0;       ///< peaks and mean squares of torques count from here on
+  std::optional<Strides> strides;  ///< of the motion, which may go on beyond what was recorded
+  /// How far the motion was played: it did not begin, it ended before its first stride began, or before that had ended.
+  enum class Played { nothing, lead_in, part_of_a_stride, strides } played = Played::strides;
   Human bodies;  ///< every body of the scenario as a link without joints, for the tables per segment
   std::vector<ContactWindow> windows, drag;  ///< one link per body
   TorqueSeries added, added_drag;
@@ -333,6 +335,8 @@ struct Measured {
   std::optional<RecordedRange> recorded;
   LawRange law_range;  ///< of cloth whose law is a table: of the frame with the most points beyond it
 
+  /// Whether the run went on to where its case ends: what was found of the whole motion is of what was played.
+  bool playedToTheEnd(const Scenario& s) const { return !(recorded_end_s < s.end_s - 1e-9); }
   const JointMeasure* highest() const;  ///< of joints that turn and that the garment touches something beyond; or null
 };
 

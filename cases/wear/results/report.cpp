@@ -57,7 +57,7 @@ void addJoints(const Scenario& s, const Measured& m, ReportInput& in) {
 void addPlots(const Measured& m, ReportInput& in) {
   std::vector<TimeMark> marks;
   if (m.strides)
-    for (int k = 0; k <= m.strides->count; ++k)
+    for (int k = 0; k <= m.strides->count && m.strides->start_s + k * m.strides->time_s < m.recorded_end_s + 1e-9; ++k)
       marks.push_back(
           {m.strides->start_s + k * m.strides->time_s, k < m.strides->count ? fmt::format("stride {}", k + 1) : "end"});
   std::vector<std::string> titles;
@@ -231,6 +231,36 @@ std::string outcomeOf(const Measured& m) {
   return s.empty() ? "Nothing touched anything in this run." : s;
 }
 
+/// What of the motion was played, where that is not what the page is to judge.
+void sayPlayed(const Measured& m, ReportInput& in) {
+  using Played = Measured::Played;
+  switch (m.played) {
+    case Played::nothing:
+      in.warnings.push_back(
+          fmt::format("The run ended at {:.2f} s, while the garment was put on: nothing of the motion was played, and "
+                      "nothing is measured.",
+                      m.recorded_end_s));
+      break;
+    case Played::lead_in:
+      in.warnings.push_back(
+          fmt::format("The run ended at {:.2f} s, in the lead-in: the first stride begins at {:.2f} s. What follows "
+                      "is of the lead-in alone and is compared with no task.",
+                      m.recorded_end_s, m.strides->start_s));
+      in.no_share = "no stride was played";
+      in.task.clear();
+      break;
+    case Played::part_of_a_stride:
+      in.notes.push_back(
+          fmt::format("The run ended at {:.2f} s, in the first stride ({:.2f} to {:.2f} s): peaks and means are of "
+                      "the lead-in and of what was played of that stride.",
+                      m.recorded_end_s, m.strides->start_s, m.strides->start_s + m.strides->time_s));
+      return;
+    case Played::strides:
+      return;
+  }
+  in.played = false;
+}
+
 /// What made the steps, where that was not the processor alone.
 void addDevice(const DeviceFacts& d, ReportInput& in) {
   if (d.kind == DeviceKind::cpu) return;
@@ -268,8 +298,9 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
     in.warnings.push_back(
         fmt::format("The run stopped at {:.2f} s of {:.2f} s: what follows is only what was recorded until then.",
                     m.recorded_end_s, s.end_s));
-  for (const std::string& note : s.notes) in.notes.push_back("Note: " + note + ".");
-  if (m.windows.empty()) in.warnings.push_back("The motion was not reached: nothing was measured.");
+  for (const std::string& note : s.notes) in.notes.push_back(capital(note) + ".");
+  in.found = s.facts;
+  sayPlayed(m, in);
   in.audit = auditOf(m);
   for (AuditCheck& c : stretchChecks(s.definition, m.stretch)) in.audit.push_back(std::move(c));
   for (AuditCheck& c : in.audit)
@@ -286,8 +317,10 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
   if (!m.contact.empty()) addContact(m, !s.human, in);
   addComfort(s, m, in);
   addCollisions(m, in);
-  if (in.joints.empty())
-    in.outcome = m.joints.empty() || m.windows.empty()
+  if (m.played == Measured::Played::nothing)
+    in.outcome = "No result: nothing of the motion was played.";
+  else if (in.joints.empty())
+    in.outcome = m.joints.empty()
                      ? outcomeOf(m)
                      : "The garment touches nothing that a joint moves: no torque tells what it costs. " + outcomeOf(m);
   addStress(s, m, in);
@@ -295,7 +328,7 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
   addSupports(m, in);
   addMemory(m, in);
   in.pictures = pictures;
-  in.assumptions = assumptionsOf(s);
+  in.assumptions = assumptionsOf(s, m);
   if (const std::string names = untouchedOf(m); !names.empty())
     in.assumptions.push_back("Left out, as the garment touches nothing that they move: " + names + ".");
   const RunIdentity made(identity);

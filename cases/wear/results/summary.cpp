@@ -271,9 +271,11 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
   j["joints"] = Json::array();
   for (const JointMeasure& joint : m.joints) j["joints"].push_back(jointJson(joint, m.strides, s.definition.comfort));
   if (const JointMeasure* top = m.highest()) j["highest"] = top->name;
-  if (m.strides)
+  const char* const played[]{"nothing", "the lead-in", "part of a stride", "strides"};
+  if (m.strides) j["played"] = played[static_cast<int>(m.played)];
+  if (m.strides && m.played >= Measured::Played::part_of_a_stride)
     j["strides"] = {{"start_s", m.strides->start_s}, {"time_s", m.strides->time_s}, {"count", m.strides->count}};
-  if (s.feet)
+  if (s.feet && m.playedToTheEnd(s))
     j["feet"] = {{"slip_m", s.feet->slip_m},
                  {"slip_m_per_s", s.feet->slip_m_per_s},
                  {"penetration_m", s.feet->penetration_m},
@@ -288,8 +290,7 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
                                     {"mean_z_N", r.mean_N.z},
                                     {"mean_normal_N", r.normal_N},
                                     {"mean_friction_N", r.friction_N}});
-  if (m.law_range.points > 0)
-    j["law_range"] = {{"points", m.law_range.points}, {"most_beyond", m.law_range.beyond}};
+  if (m.law_range.points > 0) j["law_range"] = {{"points", m.law_range.points}, {"most_beyond", m.law_range.beyond}};
   j["body_zones"] = zonesJson(m.zones);
   j["comfort"] = Json::object();
   for (const ComfortMeasure& c : m.comfort)

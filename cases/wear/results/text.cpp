@@ -78,10 +78,11 @@ std::string stretchMeaning(const Case& c, std::span<const Stretch> measured) {
       most > 0.1 ? fmt::format(", {:.0f} % are {:.0f} cm", 100 * most, 100 * (std::sqrt(1 + 2 * most) - 1)) : "";
   const std::string law =
       allTables(c) ? "The fabric\u2019s law is a table: beyond its range stress is a guess."
-                   : fmt::format("The fabric\u2019s law is a straight line, which its source takes for strains below "
-                                 "{} % (Zheng 2013, eq. 2.13): beyond that stress is extrapolated, and a real fabric "
-                                 "may be stiffer.",
-                                 100 * kStrainOfLaw);
+                   : fmt::format(
+                         "The fabric\u2019s law is a straight line, which its source takes for strains below "
+                         "{} % (Zheng 2013, eq. 2.13): beyond that stress is extrapolated, and a real fabric "
+                         "may be stiffer.",
+                         100 * kStrainOfLaw);
   return fmt::format(
       "Stretch is the Green-Lagrange strain: 1 % is 1 cm on 1 m{}. {}{} {} A largest value far above what 99 % of the "
       "cloth stays below is that of single spots, at corners and seams.",
@@ -180,7 +181,7 @@ void sayFabric(const std::string& of, const FabricCase& f, std::vector<std::stri
 
 }  // namespace
 
-std::vector<std::string> assumptionsOf(const Scenario& s) {
+std::vector<std::string> assumptionsOf(const Scenario& s, const Measured& m) {
   const Case c = withFactors(s.definition);
   std::vector<std::string> list;
   const auto say = [&](std::string text) { list.push_back(std::move(text)); };
@@ -220,7 +221,7 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
           "upper arm down to the armpit; the waist is the lower 40 % of the trunk from the lumbar joint up to the "
           "shoulder joints, the chest what lies between; hips are the pelvis.");
     say(kindOf(*c.human).assumption(*s.motion));
-    if (s.feet) {
+    if (s.feet && m.playedToTheEnd(s)) {
       std::string feet = feetText(*s.feet);
       feet[0] = 'T';
       say(feet + ".");
@@ -234,7 +235,7 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
                     formatNumber(1e3 * c.output.window_s)));
     if (const std::string natural = naturalMeaning(c.analysis.task); !natural.empty()) say(natural);
   }
-  if (const auto strides = stridesOf(c))
+  if (const auto& strides = m.strides; strides && m.played == Measured::Played::strides)
     say(
         fmt::format("Peaks and mean squares of torques count from the foot strike at {} s on; the lead-in before it is "
                     "only drawn.",
@@ -245,10 +246,11 @@ std::vector<std::string> assumptionsOf(const Scenario& s) {
   const bool remembers = std::any_of(c.garments.begin(), c.garments.end(),
                                      [&](const GarmentCase& g) { return lawUse(fabricOf(c, g)).remembers(); });
   say(allTables(c) ? "The fabric is elastic and does not remember: no hysteresis, no plastic strain."
-      : remembers ? "Stretched fabric is elastic; what bent fabric remembers is said with its law. "
-                  "Membrane: linear and orthotropic (Zheng 2013, eq. 2.13)."
-                : "The fabric is elastic and does not remember: no hysteresis, no plastic strain. Membrane: linear and "
-                  "orthotropic (Zheng 2013, eq. 2.13).");
+      : remembers
+          ? "Stretched fabric is elastic; what bent fabric remembers is said with its law. "
+            "Membrane: linear and orthotropic (Zheng 2013, eq. 2.13)."
+          : "The fabric is elastic and does not remember: no hysteresis, no plastic strain. Membrane: linear and "
+            "orthotropic (Zheng 2013, eq. 2.13).");
   for (const GarmentCase& g : c.garments)
     if (const std::string own = ownLawsInWords(g.cloth); !own.empty())
       say((c.garments.size() > 1 ? g.name + ": " : "") + own);

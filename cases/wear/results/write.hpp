@@ -78,7 +78,7 @@ std::vector<AuditCheck> auditOf(const Measured& measured);
 std::string stretchMeaning(const Case& c, std::span<const Stretch> measured);
 
 /// What a reader must know before trusting the numbers.
-std::vector<std::string> assumptionsOf(const Scenario& scenario);
+std::vector<std::string> assumptionsOf(const Scenario& scenario, const Measured& measured);
 
 ReportInput reportInput(const Scenario& scenario, const Measured& measured, const RunFacts& facts,
                         const std::string& identity, const std::vector<Picture>& pictures);

@@ -18,6 +18,7 @@
 #include "core/cloth/draft/seams.hpp"
 #include "core/error.hpp"
 #include "core/io/own_file.hpp"
+#include "tryon/pattern/flat/flatten_draft.hpp"
 #include "tryon/pattern/garment_file.hpp"
 
 namespace gambeson {
@@ -49,6 +50,28 @@ Garment draftOf(const Case& c, std::size_t k) {
   } catch (const InputError& e) {
     sayInCase(c.file, c.overrides, e);
   }
+}
+
+std::vector<std::string> uncutText(const Case& c, const std::vector<Garment>& drafts) {
+  std::vector<std::string> notes;
+  for (std::size_t k = 0; k < drafts.size(); ++k) {
+    const GarmentCase& worn = c.garments[k];
+    if (!kindOf(worn).drafted) continue;
+    const FabricCase& f = fabricOf(c, worn);
+    const double stands = standsOf(f);
+    try {
+      if (const std::string beyond = beyondText(flattenDraft(drafts[k]), stands); !beyond.empty())
+        notes.push_back(fmt::format(
+            "{}no flat cloth makes this draft: to lie flat it is stretched at {}; the fabric stands {:.3g} % "
+            "({}). The run takes it as if woven in that shape; sewn, it needs darts or more panels there",
+            worn.name.empty() ? "" : worn.name + ": ", beyond, 100 * stands,
+            f.limit_strain_weft || f.limit_strain_warp ? "limit_strain" : "the range of its law"));
+    } catch (const InputError& e) {
+      notes.push_back(
+          fmt::format("{}no flat cloth makes this draft: {}", worn.name.empty() ? "" : worn.name + ": ", e.reason()));
+    }
+  }
+  return notes;
 }
 
 void draftToFile(const Case& c, const std::string& name, const std::filesystem::path& file, bool as_mesh,

@@ -21,4 +21,7 @@ Garment draftOf(const Case& c, std::size_t garment);
 void draftToFile(const Case& c, const std::string& name, const std::filesystem::path& file, bool as_mesh,
                  std::ostream& out);
 
+/// Which drafts cannot be cut of flat cloth (beyondText), a sentence each.
+std::vector<std::string> uncutText(const Case& c, const std::vector<Garment>& drafts);
+
 }  // namespace gambeson

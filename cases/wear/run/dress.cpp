@@ -43,16 +43,24 @@ Case alone(const Case& c, std::size_t g) {
   return one;
 }
 
-State settled(const Scenario& s, bool* tangled) {
+/// Where the garment in hand was stopped, or the start.
+State stateAt(Donning donning, const Scenario& s, StepWork& work, Frequency& frequency, DressingProgress& progress) {
+  if (std::optional<State> kept = progress.take(donning, frequency)) return std::move(*kept);
+  return startOf(s, work);
+}
+
+State settled(const Scenario& s, DressingProgress& progress, bool* tangled = nullptr) {
   StepWork work;
-  State state = startOf(s, work);
   Frequency frequency;
+  State state = stateAt(Donning::wearing, s, work, frequency, progress);
   const TimeCase& time = s.definition.time;
   bool last = false;
   makeIntegrator(time.motion, *s.model, *s.stage, time.control(), frequency, work)
-      ->advance(0, state, [&](const State&, const State&, const StepReport& r, const StepResult&, const Frequency&) {
-        last = r.intersections > 0 || r.inside > 0 || r.pinched > 0;
-      });
+      ->advance(0, state,
+                [&](const State&, const State& after, const StepReport& r, const StepResult&, const Frequency& f) {
+                  last = r.intersections > 0 || r.inside > 0 || r.pinched > 0;
+                  progress.keep(Donning::wearing, after, f);
+                });
   if (tangled) *tangled = last;
   return state;
 }
@@ -71,13 +79,14 @@ struct Closed {
   std::unique_ptr<Scenario> panels;
   State state;
 };
-Closed closePanels(const Case& one, const Case& whole, std::size_t garment) {
+Closed closePanels(const Case& one, const Case& whole, std::size_t garment, DressingProgress& progress) {
   const Stitching& law = *one.garments[0].stitching;
   std::unique_ptr<Scenario> panels = floatingPanels(one, whole, garment);
+  progress.show(one.garments[0].name, panels->start_s);
   const Model& m = *panels->model;
   StepWork work;
-  State state = startOf(*panels, work);
   Frequency frequency;
+  State state = stateAt(Donning::stitching, *panels, work, frequency, progress);
   double widest = widestStitch(m.stitches, m.surface.WT, state.p);
   const std::unique_ptr<Integrator> integrator =
       makeIntegrator(one.time.motion, m, *panels->stage, one.time.control(), frequency, work);
@@ -85,6 +94,7 @@ Closed closePanels(const Case& one, const Case& whole, std::size_t garment) {
     integrator->advance(std::min(0.0, state.time_s + look_s), state,
                         [](const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {});
     widest = widestStitch(m.stitches, m.surface.WT, state.p);
+    progress.keep(Donning::stitching, state, frequency);
   }
   if (widest > law.close_m)
     throw RunError(
@@ -170,21 +180,19 @@ std::string fitText(const Scenario& s, const State& state) {
 
 void nobody(const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {}
 
-/// Its seams close around the body (core/motion/sewing.hpp), without weight; then it goes along to where the motion
-/// starts.
-State sewnAround(const Scenario& s) {
+/// Its seams close around the body (core/motion/sewing.hpp), without weight, up to closed_s.
+State closedAround(const Scenario& s, double closed_s, Frequency& frequency, DressingProgress& progress) {
   const Model& m = *s.model;
   StepWork work;
-  State state = startOf(s, work);
-  Frequency frequency;
+  State state = stateAt(Donning::wearing, s, work, frequency, progress);
   const TimeCase& time = s.definition.time;
   const std::unique_ptr<Integrator> integrator =
       makeIntegrator(time.motion, m, *s.stage, time.control(), frequency, work);
-  const double closed_s = s.human && s.stage->settle_start_s > s.start_s ? s.stage->settle_start_s : 0;
   double widest = widestGap(m, state.p);
   while (widest > closed_cells && state.time_s < closed_s - 1e-9) {
     integrator->advance(std::min(closed_s, state.time_s + look_s), state, nobody);
     widest = widestGap(m, state.p);
+    progress.keep(Donning::wearing, state, frequency);
   }
   if (widest > closed_cells)
     throw RunError(
@@ -194,10 +202,26 @@ State sewnAround(const Scenario& s) {
                     fitText(s, state).empty() ? "" : ". It does not fit: ", fitText(s, state)));
   if (const std::string fit = fitText(s, state); !fit.empty())
     sayNote(fmt::format("garment \"{}\" does not fit: {}", s.wardrobe.drafts[0].name, fit));
-  if (closed_s < 0) {  // a time that others have not seen: what steps keep of the way before does not go on
-    state.time_s = closed_s;
-    StepWork fresh;
-    makeIntegrator(time.motion, m, *s.stage, time.control(), frequency, fresh)->advance(0, state, nobody);
+  return state;
+}
+
+/// Its seams close around the body; then it goes along to where the motion starts.
+State sewnAround(const Scenario& s, DressingProgress& progress) {
+  const Model& m = *s.model;
+  const TimeCase& time = s.definition.time;
+  const double closed_s = s.human && s.stage->settle_start_s > s.start_s ? s.stage->settle_start_s : 0;
+  Frequency frequency;
+  std::optional<State> following = progress.take(Donning::following, frequency);
+  State state = following ? std::move(*following) : closedAround(s, closed_s, frequency, progress);
+  if (closed_s < 0) {
+    if (!following)
+      state.time_s = closed_s;  // a time that others have not seen: what steps keep of the way before does not go on
+    StepWork work;
+    makeIntegrator(time.motion, m, *s.stage, time.control(), frequency, work)
+        ->advance(0, state,
+                  [&](const State&, const State& after, const StepReport&, const StepResult&, const Frequency& f) {
+                    progress.keep(Donning::following, after, f);
+                  });
   }
   return state;
 }
@@ -205,32 +229,32 @@ State sewnAround(const Scenario& s) {
 }  // namespace
 
 Dressed putOnApart(const Case& c) {
-  Dressed dressed;
-  for (std::size_t g = 0; g < c.garments.size(); ++g) {
+  DressingProgress forgets;
+  return putOnApart(c, forgets);
+}
+
+Dressed putOnApart(const Case& c, DressingProgress& progress) {
+  for (std::size_t g = progress.worn().garments.size(); g < c.garments.size(); ++g) {
     Case one = alone(c, g);
     const bool stitched = one.garments[0].stitching.has_value();
     Closed closed;
     try {
-      if (stitched) {
-        closed = closePanels(one, c, g);
-        one.dressing.projecting.reset();
-      }
+      const bool closing = stitched && !progress.isPast(Donning::stitching);
+      if (closing) closed = closePanels(one, c, g, progress);
+      if (stitched) one.dressing.projecting.reset();
       const bool sewn = kindOf(one.garments[0]).sewn;
       const std::unique_ptr<Scenario> s = sewn ? standingPanels(one, c, g) : buildAlone(one, c, g);
-      if (stitched) {
+      if (closing) {
         s->start_m = sew(s->model->cloth->map(), controlPoints(*closed.panels, closed.state));
         s->start_history = carriedHistory(*closed.panels->model->cloth, closed.state.history, *s->model->cloth);
       }
-      const State state = sewn ? sewnAround(*s) : settled(*s, nullptr);
-      Dressed worn = dressedOf(*s, state);
-      dressed.body = worn.body;
-      dressed.posture = worn.posture;
-      dressed.garments.push_back(std::move(worn.garments[0]));
+      progress.show(c.garments[g].name.empty() ? "the garment" : c.garments[g].name, s->start_s);
+      progress.add(dressedOf(*s, sewn ? sewnAround(*s, progress) : settled(*s, progress)));
     } catch (const RunError& e) {
       throw RunError(fmt::format("putting on the garment \"{}\": {}", c.garments[g].name, e.what()));
     }
   }
-  return dressed;
+  return progress.worn();
 }
 
 void buildApart(const Case& c) {
@@ -245,24 +269,30 @@ void buildApart(const Case& c) {
 }
 
 void putOn(Scenario& s) {
+  DressingProgress forgets;
+  putOn(s, forgets);
+}
+
+void putOn(Scenario& s, DressingProgress& progress) {
   const DressingCase& dressing = s.definition.dressing;
   const Case& c = s.definition;
   if (dressing.layer_by_layer && dressing.from.empty()) {
-    const Dressed worn = putOnApart(c);
+    const Dressed worn = putOnApart(c, progress);
     wear(s, worn);
     const auto sewn = [](const GarmentCase& g) { return kindOf(g).sewn; };
     if (s.stage->dressed && std::any_of(c.garments.begin(), c.garments.end(), sewn)) s.stage->dressed = worn.posture;
   }
   if (c.human || !kindOf(c.garments[0]).sewn) return;
   const std::unique_ptr<Scenario> panels = standingPanels(alone(c, 0), c, 0);
-  s.start_m = sewnAround(*panels).p;
+  s.start_m = sewnAround(*panels, progress).p;
 }
 
 namespace {
 
 Dressed freed(const Scenario& s) {
   bool tangled = false;
-  const State state = settled(s, &tangled);
+  DressingProgress forgets;
+  const State state = settled(s, forgets, &tangled);
   if (tangled)
     throw RunError(
         fmt::format("cloth still passes through cloth or the body after {} s of settling; more time "
@@ -281,6 +311,7 @@ Dressed wearTogether(const Case& c, const Dressed& apart) {
 
 Dressed dress(const Case& c) {
   const std::unique_ptr<Scenario> s = buildScenario(c);
+  for (const std::string& note : s->notes) sayNote(note);
   putOn(*s);
   return freed(*s);
 }

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "analysis/animation/glb.hpp"
 #include "analysis/animation/obj.hpp"
 #include "analysis/opensim.hpp"
 #include "analysis/opensim_model.hpp"
 #include "cases/cad/cad_file.hpp"
 #include "cases/cad/tidy.hpp"
+#include "cases/input/message.hpp"
 #include "cases/wear/results/animation.hpp"
 #include "cases/wear/results/results.hpp"
 #include "cases/wear/results/write.hpp"
@@ -55,14 +58,33 @@ CadShape facesOf(const RecordingLayout& layout, const Frame& frame, const char* 
   return shape;
 }
 
+/// Where all the frames that are asked for would make too large a file, as many as do not, and says so.
+void fewerFrames(const Scenario& s, const RecordingReader& recording, AnimationOptions& how, const ExportOptions& o) {
+  std::size_t asked = animatedFrames(recording);
+  if (how.frames > 0) asked = std::min(asked, static_cast<std::size_t>(how.frames));
+  AnimationOptions two = how;
+  two.frames = 2;
+  const GlbSize size = glbSize(animationOf(s, recording, two).scene);
+  const auto MB = [](double bytes) { return 1e-6 * bytes; };
+  if (size.bytes(asked) <= o.largest_glb) return;
+  const std::size_t most = size.most(o.largest_glb);
+  if (most < 2)
+    throw RunError(fmt::format("{} would have {:.0f} MB with two frames alone; at most {:.0f} MB are written",
+                               o.glb.string(), MB(size.bytes(2)), MB(o.largest_glb)));
+  how.frames = static_cast<int>(most);
+  sayNote(fmt::format("{} would have {:.0f} MB with {} frames; at most {:.0f} MB are written, with {} frames, evenly",
+                      o.glb.string(), MB(size.bytes(asked)), asked, MB(o.largest_glb), most));
+}
+
 /// "walk.glb: 42 frames, 8.1 MB".
-void writeGlb(const Scenario& s, const RecordingReader& recording, AnimationOptions how,
-              const std::filesystem::path& file) {
+void writeGlb(const Scenario& s, const RecordingReader& recording, AnimationOptions how, const ExportOptions& o) {
+  const std::filesystem::path& file = o.glb;
   constexpr double kSkin_m = 1e-3;  // single precision and rounding of weights stay far below
+  fewerFrames(s, recording, how, o);
   const Animation animation = animationOf(s, recording, how);
   if (!(animation.skin_error_m <= kSkin_m))
-    throw RunError(fmt::format("the body of the animation would be {:.2g} mm off that of the run",
-                               1e3 * animation.skin_error_m));
+    throw RunError(
+        fmt::format("the body of the animation would be {:.2g} mm off that of the run", 1e3 * animation.skin_error_m));
   const Glb glb = encodeGlb(animation.scene);
   writeOwnFile(file, glb.bytes);
   fmt::print("{}: {} frames, {:.1f} MB, cloth within {:.2g} mm of the recording", file.string(),
@@ -107,7 +129,7 @@ int exportResults(const ExportOptions& o) {
   const Measured measured = measure(*scenario, recording);
   const int frame = frameOf(recording, measured, {o.when, o.time_s});
   const AnimationOptions how{o.frames, frame, o.field};
-  if (!o.glb.empty()) writeGlb(*scenario, recording, how, o.glb);
+  if (!o.glb.empty()) writeGlb(*scenario, recording, how, o);
   if (!o.obj.empty()) writeObjs(*scenario, recording, how, o.obj);
   if (!o.step.empty() || !o.iges.empty()) {
     const std::string title = fmt::format("{}, {:.3f} s", scenario->definition.name, recording.time(frame));

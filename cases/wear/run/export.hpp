@@ -10,15 +10,16 @@
 namespace gambeson {
 
 struct ExportOptions {
-  std::filesystem::path results;        ///< folder of a run
-  std::filesystem::path step, iges;     ///< empty: none
-  std::filesystem::path opensim;        ///< prefix of the .osim, .xml and two .mot; empty: none
-  std::filesystem::path glb;            ///< animation; empty: none
-  std::filesystem::path obj;            ///< of each frame a file of this name with its number; empty: none
-  int frames = 0;                       ///< of animations, at most; 0: all
+  std::filesystem::path results;     ///< folder of a run
+  std::filesystem::path step, iges;  ///< empty: none
+  std::filesystem::path opensim;     ///< prefix of the .osim, .xml and two .mot; empty: none
+  std::filesystem::path glb;         ///< animation; empty: none
+  std::filesystem::path obj;         ///< of each frame a file of this name with its number; empty: none
+  int frames = 0;                    ///< of animations, at most; 0: all
+  double largest_glb = 100e6;        ///< bytes: what browsers and mail still take; above it there are fewer frames
   PictureField field = PictureField::stress;  ///< that an animation is coloured by
   PictureTime when = PictureTime::end;        ///< of the STEP and the IGES file, and of the colours
-  double time_s = 0;                    ///< where `when` is `at`
+  double time_s = 0;                          ///< where `when` is `at`
 };
 
 /// What `export` writes, by the ending of a file's name in lower case.

@@ -28,6 +28,7 @@
 #include "cases/wear/results/girths.hpp"
 #include "cases/wear/results/results.hpp"
 #include "cases/wear/run/company.hpp"
+#include "cases/wear/run/draft.hpp"
 #include "cases/wear/run/dress.hpp"
 #include "cases/wear/run/run_steps.hpp"
 #include "cases/wear/scene/worn.hpp"
@@ -95,6 +96,12 @@ std::string girthLine(const GirthMeasure& g) {
   return line;
 }
 
+/// What is to be known before results: what bears on them, and what was found in files.
+void sayNotes(const Scenario& s) {
+  for (const std::string& note : s.notes) sayNote(note);
+  for (const std::string& fact : s.facts) sayNote(fact);
+}
+
 /// A device that fails says so, and how the run goes on; all that a shell needs stands in a line of its own.
 [[noreturn]] void failOnDevice(const gpu::DeviceError& e, const std::string& phase, const Case& c,
                                const RunOptions& options) {
@@ -116,9 +123,12 @@ std::vector<std::string> checkRun(const Case& c) {
   StepWork work;
   const State state = startOf(*scenario, work);
   if (c.dressing.layer_by_layer && c.dressing.from.empty()) buildApart(c);
+  // Unusual numbers come first among the notes; whoever checks a file has said them with their lines.
   const auto unusual = unusualNumbers(schema::caseTable(), schema::writeObject(schema::caseTable(), &c));
   std::vector<std::string> lines(scenario->notes.begin() + static_cast<std::ptrdiff_t>(unusual.size()),
                                  scenario->notes.end());
+  for (const std::string& uncut : uncutText(c, scenario->wardrobe.drafts)) lines.push_back(uncut);
+  lines.insert(lines.end(), scenario->facts.begin(), scenario->facts.end());
   std::vector<Vec3> x(static_cast<std::size_t>(scenario->model->surface.size()));
   scenario->model->surface.WT.multiply<Vec3>(state.p, x);
   for (const GirthMeasure& girth : girthsAt(*scenario, x, scenario->start_s)) lines.push_back(girthLine(girth));
@@ -137,12 +147,10 @@ int runCase(const Case& c, const RunOptions& options) {
         "stopped by a signal. What is recorded up to the last checkpoint stays in {}: the same command with "
         "--resume goes on from there",
         options.out.string()));
-  if (options.resume && !resume)
-    fmt::print(notes(), "{} holds no checkpoint to resume from: starting at the beginning\n", options.out.string());
   const std::unique_ptr<Scenario> scenario = buildScenario(c);
   const Model& model = *scenario->model;
   const Company::Share memory = requireRoom(c, options, model);
-  for (const std::string& note : scenario->notes) sayNote(note);
+  sayNotes(*scenario);
 
   StepWork work;
   State state;
@@ -156,6 +164,14 @@ int runCase(const Case& c, const RunOptions& options) {
   }
   if (const std::string note = sizeNote(recordingSize(*scenario, layout).bytes, freeBytes(options.out)); !note.empty())
     sayNote(note);
+  DressingProgress dressing(options.out / kDressingFile,
+                            RunIdentity(caseIdentity(c), model.cloth->kernels(), DeviceKind::cpu).text(),
+                            options.resume && !resume);
+  if (dressing.resumes())
+    fmt::print(notes(), "{}: dressing goes on, with {} of {} garments on\n", options.out.string(),
+               dressing.worn().garments.size(), c.garments.size());
+  else if (options.resume && !resume)
+    fmt::print(notes(), "{} holds no checkpoint to resume from: starting at the beginning\n", options.out.string());
   // The case is written once there is a recording and before its first segment: a recording with a segment has its
   // case, whenever the run is killed.
   if (!resume) removeEarlierResults(options.out);
@@ -165,7 +181,7 @@ int runCase(const Case& c, const RunOptions& options) {
     requireRecordedCase(options.out, readLayout(options.out));
   else
     writeOwnFile(options.out / "case.json", writeCase(c));
-  if (!resume) putOn(*scenario);
+  if (!resume) putOn(*scenario, dressing);
   state = resume ? stateOf(checkpoint, frequency) : startOf(*scenario, work);
 
   const Windows windows(scenario->start_s, scenario->end_s, c.output.window_s);
@@ -173,7 +189,10 @@ int runCase(const Case& c, const RunOptions& options) {
   while (k < windows.count() && windows.bound(k) < state.time_s) ++k;
   Recorder recorder(*scenario, writer);
   // A run that is killed early starts again from the start itself.
-  if (!resume) writer.closeSegment(checkpointOf(state, frequency));
+  if (!resume) {
+    writer.closeSegment(checkpointOf(state, frequency));
+    dressing.finish();
+  }
   // What was let go and drawn before the checkpoint: at its own time the run had not done so yet.
   if (k > 1) {
     if (const auto gone = lettingGo(c, windows.bound(0), windows.bound(k - 1)); !gone.empty())

@@ -39,7 +39,9 @@ void noteFolds(const HumanCase& human, MadeBodies& s) {
 
 /// The human of the case and his motion.
 void makeHuman(const Case& c, MadeBodies& s) {
-  s.human = underKey("human", [&] { return humanOf(*c.human, &s.notes); });
+  WearerNotes told;
+  s.human = underKey("human", [&] { return humanOf(*c.human, &told); });
+  s.notes = std::move(told.notes), s.facts = std::move(told.facts);
   const MotionKind& kind = kindOf(*c.human);
   MadeMotion made = underKey("human.motion", [&] { return kind.make(*c.human, *s.human); });
   s.motion = std::move(made.motion);
@@ -48,7 +50,7 @@ void makeHuman(const Case& c, MadeBodies& s) {
   s.hurdle = made.hurdle;
   s.notes.insert(s.notes.end(), made.notes.begin(), made.notes.end());
   if (s.human->skin && !(kind.ours && c.human->skin)) noteFolds(*c.human, s);
-  s.feet = footReport(*s.human, *s.motion);
+  s.feet = footReport(*s.human, *s.motion, c.time.duration_s.value_or(s.motion->duration()));
   if (s.feet && !kind.tells_feet && !plausible(*s.feet))
     s.notes.push_back("the feet do not stand well: " + feetText(*s.feet));
 }
@@ -87,7 +89,7 @@ MadeBodies makeBodies(const Case& c) {
   MadeBodies made;
   if (c.human) makeHuman(c, made);
   made.obstacles = makeObstacles(c.obstacles, made.hurdle ? &*made.hurdle : nullptr);
-  for (const MadeObstacle& o : made.obstacles) made.notes.insert(made.notes.end(), o.notes.begin(), o.notes.end());
+  for (const MadeObstacle& o : made.obstacles) made.facts.insert(made.facts.end(), o.notes.begin(), o.notes.end());
   return made;
 }
 
@@ -98,6 +100,7 @@ std::vector<Obstacle> placeBodies(const Case& c, MadeBodies made, Scenario& s, C
   s.air_ramp_s = made.air_ramp_s;
   s.feet = made.feet;
   s.notes = std::move(made.notes);
+  s.facts = std::move(made.facts);
   std::vector<Obstacle> obstacles;
   if (s.human) obstacles = placeHuman(*c.human, s, stage);
   stage.air_velocity = c.air.with_pelvis ? s.mean_velocity_m_per_s : c.air.velocity_m_per_s;

@@ -20,9 +20,9 @@ struct MadeBodies {
   Vec3 mean_velocity_m_per_s;      ///< of the pelvis
   double air_ramp_s = 0;           ///< in which air that goes along comes up to speed
   std::optional<FootReport> feet;
-  std::optional<Hurdle> hurdle;         ///< what the motion steps over
-  std::vector<MadeObstacle> obstacles;  ///< of the case, in its order
-  std::vector<std::string> notes;       ///< what a user should know of them
+  std::optional<Hurdle> hurdle;           ///< what the motion steps over
+  std::vector<MadeObstacle> obstacles;    ///< of the case, in its order
+  std::vector<std::string> notes, facts;  ///< as those of a Scenario
 };
 /// Throws InputError with the case's keys.
 MadeBodies makeBodies(const Case& c);

@@ -70,14 +70,13 @@ struct Only {
 };
 
 /// What is drafted over other garments is drafted over them also where it is put on by itself: it is the same garment.
-Wardrobe makeGarments(const Case& c, const Only& only, const Human* human) {
+/// `fit`: takes what is to be known of how they fit.
+Wardrobe makeGarments(const Case& c, const Only& only, const Human* human, std::vector<std::string>& fit) {
   Wardrobe made;
-  std::vector<std::string> fit;
   if (only.of)
     made.drafts = {std::move(draftGarments(withFactors(*only.of), human)[only.garment])};
   else
     made.drafts = draftGarments(c, human, &fit);
-  for (const std::string& note : fit) sayNote(note);
   made.meshes = readMeshes(c, made.drafts);
   return made;
 }
@@ -105,13 +104,15 @@ void noteCoarseness(const Case& c, std::span<const Garment> garments, std::span<
       if (s.model->surface.patch[i] >= first_patch[k] && s.model->surface.patch[i] < first_patch[k + 1])
         cell = std::max(cell, s.model->cell_m[i]);
     const double N = cell > 0 ? coarseness(garments[k].fabric, cell, g) : 0;
-    if (N > kCoarse)
-      s.notes.push_back(fmt::format(
-          "{}cells of up to {:.3g} mm are coarse for cloth that bends so easily: it folds as if it were stiffer "
-          "(coarseness {:.0f}; at {:.0f} tips of heavy strips are off by 3 % of their length, from 100 on by 10 % and "
-          "more); cells of {:.2g} mm would do",
-          c.garments[k].name.empty() ? "" : c.garments[k].name + ": ", 1e3 * cell, N, kCoarse,
-          1e3 * fineEnough(cell, N)));
+    if (!(N > kCoarse)) continue;
+    const double fine = fineEnough(cell, N), longer = std::pow(cell / fine, kTimeOfCells);
+    s.notes.push_back(fmt::format(
+        "{}cells of up to {:.3g} mm are coarse for cloth that bends so easily: it folds as if it were stiffer, by "
+        "which "
+        "the end of a strip that hangs is off by {} of its length; cells of {:.2g} mm would do (3 %), and take {} "
+        "times as long",
+        c.garments[k].name.empty() ? "" : c.garments[k].name + ": ", 1e3 * cell, coarseError(N), 1e3 * fine,
+        longer < 100 ? fmt::format("some {:.0f}", longer) : "more than a hundred"));
   }
 }
 
@@ -246,11 +247,13 @@ Assembled assemble(const Case& written, const Case& c, const Only& only, MadeBod
 std::unique_ptr<Scenario> buildUnnamed(const Case& written, const Only& only) {
   const Case c = withFactors(written);
   MadeBodies bodies = makeBodies(c);
-  Wardrobe wardrobe = makeGarments(c, only, bodies.human ? &*bodies.human : nullptr);
+  std::vector<std::string> fit;
+  Wardrobe wardrobe = makeGarments(c, only, bodies.human ? &*bodies.human : nullptr, fit);
   auto [s, at_start] = assemble(written, c, only, std::move(bodies), std::move(wardrobe));
   const std::vector<std::string> unusual =
       unusualNumbers(schema::caseTable(), schema::writeObject(schema::caseTable(), &written));
   s->notes.insert(s->notes.begin(), unusual.begin(), unusual.end());
+  s->notes.insert(s->notes.end(), fit.begin(), fit.end());
   putOnAtStart(c, only, *s);
   if (isProjected(c)) shrinkBody(c, at_start, *s);
   return std::move(s);
@@ -294,7 +297,7 @@ std::unique_ptr<Scenario> buildRecorded(const Case& c, MadeBodies bodies, Wardro
     addFabric(effective, effective.garments[k], wardrobe.drafts[k]);
     if (wardrobe.meshes[k]) wardrobe.meshes[k]->fabrics = {wardrobe.drafts[k].fabric};
   }
-  std::vector<std::string> notes = bodies.notes;
+  std::vector<std::string> notes = bodies.notes;  // with all that was said of the garments
   std::unique_ptr<Scenario> s = assemble(c, effective, {}, std::move(bodies), std::move(wardrobe)).scenario;
   s->notes = std::move(notes);
   return s;

@@ -57,8 +57,10 @@ struct Scenario {
   std::vector<std::string> contact_regions;
   std::vector<int> contact_region;  ///< of the samples
   std::vector<ContactGroup> contact_groups;
-  std::vector<int> contact_group;     ///< of the samples
-  std::vector<std::string> notes;     ///< what a user should know of the case before its results
+  std::vector<int> contact_group;  ///< of the samples
+  /// What a user should know of the case before its results: what bears on these, and what was found in files of the
+  /// wearer and of obstacles.
+  std::vector<std::string> notes, facts;
   std::vector<Vec3> start_m;          ///< where the free points start; empty: where they are drafted
   std::vector<Vec3> shift_m;          ///< of the free points at the start, from the rest shapes; empty: none
   std::vector<double> start_history;  ///< what laws remember at the start; empty: nothing, they are new

@@ -297,4 +297,23 @@ FlattenedDraft flattenDraft(const Garment& garment) {
   return out;
 }
 
+std::string beyondText(const FlattenedDraft& flat, double limit) {
+  constexpr double kFarBeyond = 0.3;
+  constexpr std::size_t kSaid = 3;
+  std::vector<std::size_t> beyond;
+  for (std::size_t k = 0; k < flat.flattening.size(); ++k)
+    if (const Flattening& f = flat.flattening[k]; f.rms_strain > 2 * limit || f.largest_strain > limit + kFarBeyond)
+      beyond.push_back(k);
+  std::stable_sort(beyond.begin(), beyond.end(), [&](std::size_t a, std::size_t b) {
+    return flat.flattening[a].largest_strain > flat.flattening[b].largest_strain;
+  });
+  std::string text;
+  for (std::size_t k = 0; k < std::min(kSaid, beyond.size()); ++k) {
+    const Flattening& f = flat.flattening[beyond[k]];
+    text += fmt::format("{}{} by up to {:.2g} % ({:.2g} % in the mean)", text.empty() ? "" : ", ",
+                        flat.pattern.panels[beyond[k]].name, 100 * f.largest_strain, 100 * f.rms_strain);
+  }
+  return text + (beyond.size() > kSaid ? fmt::format(" and {} more", beyond.size() - kSaid) : "");
+}
+
 }  // namespace gambeson

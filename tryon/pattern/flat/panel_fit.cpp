@@ -130,15 +130,18 @@ void layAsPlaced(const FlatPattern& pattern, const Vec3& shift_m, std::vector<La
   }
 }
 
-std::string shortText(std::vector<PanelGirth> girths) {
+std::string shortText(std::vector<PanelGirth> girths, double stands) {
   std::erase_if(girths, [](const PanelGirth& g) { return !(g.short_m() > 5e-4); });
   std::stable_sort(girths.begin(), girths.end(),
                    [](const auto& a, const auto& b) { return a.short_m() > b.short_m(); });
   std::string text;
-  for (const PanelGirth& g : girths)
+  for (const PanelGirth& g : girths) {
     text += fmt::format(
         "{}at the {} (at {:.2f} m) the wearer is {:.1f} cm around and the panels {:.1f} cm: {:.1f} cm short",
         text.empty() ? "" : "; ", g.where, g.height_m, 100 * g.body_m, 100 * g.panels_m, 100 * g.short_m());
+    if (const double stretch = g.body_m / g.panels_m - 1; stretch > stands)
+      text += fmt::format(" (stretched by {:.2g} %, and its fabric stands {:.2g} %)", 100 * stretch, 100 * stands);
+  }
   return text;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Whether panels go around their wearer, before anything is sewn.
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -27,7 +28,8 @@ void layAsPlaced(const FlatPattern& pattern, const Vec3& shift_m, std::vector<La
                  std::vector<LaidPanel>& back);
 
 /// "at the hip (at 0.93 m) the wearer is 98.0 cm around and the panels 92.0 cm: 6.0 cm short; ..", the shortest first;
-/// empty where nothing is short.
-std::string shortText(std::vector<PanelGirth> girths);
+/// empty where nothing is short. Where cloth would have to be stretched beyond what it stands (a share of its length),
+/// that is said.
+std::string shortText(std::vector<PanelGirth> girths, double stands = std::numeric_limits<double>::infinity());
 
 }  // namespace gambeson

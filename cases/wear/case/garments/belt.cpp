@@ -16,7 +16,7 @@ Object beltTable() {
               "made shorter by the stretch at which it carries this")
       .number("below_waist", &B::below_waist_m, "m", between(-0.2, 0.2),
               "its upper edge below the edge \"waist\" of the garment under it")
-      .number("cell", &B::cell_m, "m", between(0.002, 0.1), "wanted size of a cell; smaller is finer and slower")
+      .number("cell", &B::cell_m, "m", between(0.002, 0.1), kCellDoc)
       .integer("degree", &B::degree, 2, 5, "polynomial degree")
       .number("gap", &B::gap_m, "m", between(0, 0.02), "that it starts farther out than the garments under it ask for")
       .build();

@@ -18,12 +18,19 @@ namespace gambeson {
 namespace schema {
 template <class T>
 class Table;
-}
+
+/// What `cell` of a draft means to whoever chooses it.
+inline constexpr const char* kCellDoc =
+    "wanted size of a cell, the piece that cloth is computed in: 40 to 50 mm try a case out (a walk in minutes, peaks "
+    "within some 40 %), 20 to 30 mm are for numbers to rely on (most of an hour); half the size takes some ten times "
+    "as "
+    "long";
+}  // namespace schema
 
 /// What a garment is made from.
 struct GarmentMaking {
   const GarmentCase& worn;
-  const Fabric& fabric;
+  const FabricCase& fabric;
   double layer_m = 0;              ///< that it keeps from others where it is thickest
   const BodyForm* form = nullptr;  ///< null without a human
   std::span<const Worn> under;     ///< the garments before it

@@ -23,7 +23,7 @@ Object patternGarmentTable() {
   return Table<P>("Garment of a pattern")
       .path("path", &P::path, "a pattern as gambeson import writes it, relative to the case's folder")
       .required()
-      .number("cell", &P::cell_m, "m", between(0.001, 0.2), "wanted size of a cell, along weft and warp")
+      .number("cell", &P::cell_m, "m", between(0.001, 0.2), std::string(kCellDoc) + "; along weft and warp")
       .integer("degree", &P::degree, 2, 5, "polynomial degree")
       .number("close_within", &P::close_within_s, "s", aboveTo(0, 100),
               "by then its seams are closed around the wearer; else the run says which gape, and by how much")
@@ -144,7 +144,8 @@ std::vector<std::string> fitOf(const GarmentMaking& m) {
                           panel.name, name, 100 * d.depth_m, d.segment));
       }
     }
-    if (const std::string text = shortText(panelGirths(pattern, front, back, StandingBody(*m.human, m.posture)));
+    if (const std::string text =
+            shortText(panelGirths(pattern, front, back, StandingBody(*m.human, m.posture)), standsOf(m.fabric));
         !text.empty())
       notes.push_back(
           fmt::format("garment \"{}\" is narrower than its wearer before anything is sewn: {}", name, text));

@@ -24,12 +24,12 @@ Object shirtTable() {
       .number("margin", &S::margin_m, "m", between(0, 0.1), "of the panels beside the straps, to whole cells")
       .number("belly_length", &S::belly_length_m, "m", between(0.02, 0.5), "of the belly protector")
       .number("belly_share", &S::belly_share, "", between(0.1, 0.9), "its width over that of the front")
-      .number("cell", &S::cell_m, "m", between(0.002, 0.1), "wanted size of a cell; smaller is finer and slower")
+      .number("cell", &S::cell_m, "m", between(0.002, 0.1), kCellDoc)
       .integer("degree", &S::degree, 2, 5, "polynomial degree")
       .number("gap", &S::gap_m, "m", between(0, 0.02), "farther out than the garments under it ask for")
       .number("sleeve_length", &S::sleeve_length_m, "m", between(0.05, 1),
               "of the sleeves, from the shoulder joint along the arm to the hem: below the armhole, down to the wrist")
-      .defaultsTo("no sleeves")
+      .defaultsTo("no sleeves: a vest")
       .number("sleeve_ease", &S::sleeve_ease, "", between(0, 1),
               "how much wider than the arm: girth = (1 + ease) that of the arm")
       .number("sleeve_hem_ease", &S::sleeve_hem_ease, "", between(0, 1),
@@ -49,8 +49,10 @@ const GarmentKind shirt_garment{
         [](schema::Table<GarmentCase>& table) {
           table.alternative<ShirtGarment>(
               "shirt", &GarmentCase::shape, schema::shirtTable(),
-              "a shirt of six patches (front, back, strap_left, strap_right, side_wrap, belly), drafted on the human "
-              "over the garments before it; with sleeves of four more each (sleeve_front, sleeve_top, sleeve_back, "
+              "what the trunk wears, drafted on the human over the garments before it: without `sleeve_length` a vest "
+              "that "
+              "hangs on straps, as armour has it, of six patches (front, back, strap_left, strap_right, side_wrap, "
+              "belly); with it a shirt, whose sleeves are four more each (sleeve_front, sleeve_top, sleeve_back, "
               "sleeve_under, _left and _right)");
         },
     .edges =

@@ -23,7 +23,7 @@ Object shortsTable() {
       .number("waist_ease", &S::waist_ease, "", between(0, 0.5),
               "ease of the waist edge, which goes over into the other within 12 cm below it; small under a belt")
       .defaultsTo("ease")
-      .number("cell", &S::cell_m, "m", between(0.002, 0.1), "wanted size of a cell; smaller is finer and slower")
+      .number("cell", &S::cell_m, "m", between(0.002, 0.1), kCellDoc)
       .integer("degree", &S::degree, 2, 5, "polynomial degree")
       .build();
 }

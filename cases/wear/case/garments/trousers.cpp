@@ -19,7 +19,7 @@ Object trousersTable() {
       .number("crotch_ease", &T::crotch_ease_m, "m", between(0, 0.2),
               "how far the crotch of the trousers lies under the body's where they are worn")
       .number("hem", &T::hem_m, "m", between(0.02, 1), "height of the hems above the ground where they are worn")
-      .number("cell", &T::cell_m, "m", between(0.002, 0.1), "wanted size of a cell; smaller is finer and slower")
+      .number("cell", &T::cell_m, "m", between(0.002, 0.1), kCellDoc)
       .integer("degree", &T::degree, 2, 5, "polynomial degree")
       .build();
 }

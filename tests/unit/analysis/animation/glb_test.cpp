@@ -142,6 +142,36 @@ TEST(Glb, OneTimeIsAPictureThatStands) {
   EXPECT_FALSE(file.json["meshes"][0].contains("weights"));
 }
 
+/// The example with more cloth, over `times`.
+AnimatedScene longExample(std::size_t times) {
+  constexpr std::size_t kVertices = 150;
+  AnimatedScene s = example();
+  s.time_s.clear();
+  for (MovedNode& n : s.nodes)
+    if (n.at.size() > 1) n.at.clear();
+  s.moving[0].at.assign(times, std::vector<float>(3 * kVertices));
+  s.moving[0].colors.assign(kVertices, Color{0.5f, 0.5f, 0.5f});
+  for (std::size_t k = 0; k < times; ++k) {
+    const double t = 3 * static_cast<double>(k) / static_cast<double>(times - 1);
+    s.time_s.push_back(t);
+    for (std::size_t i = 0; i < 3 * kVertices; ++i)
+      s.moving[0].at[k][i] = static_cast<float>(std::sin(0.37 * static_cast<double>(i) + t));
+    for (std::size_t n : {0u, 1u}) s.nodes[n].at.push_back({rotationAbout({0, 0, 1}, t), {t, 1, -t}, 1});
+  }
+  return s;
+}
+
+TEST(Glb, ItsSizeIsKnownFromTwoTimes) {
+  const GlbSize size = glbSize(longExample(2));
+  for (const std::size_t times : {std::size_t{5}, std::size_t{50}, std::size_t{400}}) {
+    const auto bytes = static_cast<double>(encodeGlb(longExample(times)).bytes.size());
+    EXPECT_NEAR(size.bytes(times), bytes, 0.01 * bytes) << times;
+    EXPECT_EQ(size.most(size.bytes(times) + 1), times);
+    EXPECT_EQ(size.most(size.bytes(times) - 1), times - 1);
+  }
+  EXPECT_EQ(size.most(100), 0u);
+}
+
 TEST(Glb, PositionsThatAreNoNumbersAreRefused) {
   AnimatedScene scene = example();
   scene.moving[0].at[2][4] = std::numeric_limits<float>::quiet_NaN();

@@ -201,13 +201,32 @@ TEST(Report, IsReadableByAll) {
         << tag;
 }
 
-TEST(Report, NotesStandAtTheTopAndAreNoAlarms) {
+TEST(Report, NotesFollowTheHeadlineAndFactsAreFolded) {
   ReportInput in = example();
-  in.notes = {"Note: cells are coarse."};
+  in.notes = {"Cells are coarse."};
+  in.found = {"scan a.obj: waist 80 cm", "a lonely fact", "scan a.obj: hip <98> cm"};
   const std::string page = formatReport(in);
   EXPECT_FALSE(has(page, "class=\"alarm\""));
-  EXPECT_TRUE(has(page, "<p class=\"notice\">Note: cells are coarse."));
-  EXPECT_LT(page.find("Note: cells are coarse."), page.find("Peak added torque"));
+  EXPECT_TRUE(has(page, "<li>Cells are coarse.</li>"));
+  EXPECT_LT(page.find("Peak added torque"), page.find("Cells are coarse."));
+  EXPECT_LT(page.find("Cells are coarse."), page.find("<details"));
+  EXPECT_TRUE(has(page, "3 notes)</summary>"));
+  EXPECT_EQ(count(page, "<p class=\"about\">Scan a.obj</p>"), 1u);
+  for (const char* item : {"<li>waist 80 cm</li>", "<li>hip &lt;98&gt; cm</li>", "<li>a lonely fact</li>"})
+    EXPECT_EQ(count(page, item), 1u) << item;
+  EXPECT_LT(page.find("hip &lt;98&gt;"), page.find("a lonely fact"));
+  in.notes.resize(4, "More.");  // many fold too
+  EXPECT_TRUE(has(formatReport(in), "<summary>4 notes that bear on this result</summary>"));
+}
+
+TEST(Report, WhatWasNotPlayedIsNotGreen) {
+  ReportInput in = example();
+  in.audit.clear();
+  in.stretch.clear();
+  EXPECT_TRUE(trustOf(in).whole());
+  in.played = false;
+  EXPECT_FALSE(trustOf(in).whole());
+  EXPECT_TRUE(trustOf(in).reliable());
 }
 
 TEST(Report, FailedCheckAndWarningStandAtTheTop) {

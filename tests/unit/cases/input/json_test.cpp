@@ -76,6 +76,17 @@ TEST(Json, MistakesAreNamed) {
   }
 }
 
+TEST(Json, ValuesAreCountedAsTheyAreRead) {
+  const JsonLimits few{.values = 6};  // the object, a, its three numbers, b
+  EXPECT_EQ(parseJson("{\"a\": [1, 2, 3],\n\"b\": 4}", "f.json", few).children.size(), 2u);
+  try {
+    parseJson("{\"a\": [1, 2, 3],\n\"b\": [4]}", "f.json", few);
+    FAIL() << "accepted";
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(), "f.json:2: more than 6 values; at most so many are read");
+  }
+}
+
 TEST(Json, OverridesReplaceAndAdd) {
   JsonNode root = parseJson(R"({"a": {"b": 1}, "l": [1, {"x": 2}]})", "f");
   overrideValue(root, "a.b", "7");

@@ -85,7 +85,7 @@ TEST(FlatDraft, IsWrittenByItsEnding) {
   const Garment shorts = drafts().front();
   std::ostringstream said;
   for (const char* ending : {".dxf", ".svg", ".json"})
-    flatToFile(shorts, folder.path() / ("s" + std::string(ending)), said);
+    flatToFile(shorts, folder.path() / ("s" + std::string(ending)), 0.02, said);
   EXPECT_NE(said.str().find("strain rms"), std::string::npos);
   EXPECT_EQ(importPattern(folder.path() / "s.json", {}).pattern.seams.size(), 9u);
   EXPECT_NE(content(folder.path() / "s.svg").find("<svg"), std::string::npos);

@@ -41,8 +41,8 @@ TEST(CharacterCase, WearsShortsThatAreDraftedOnItAndWalks) {
   ASSERT_TRUE(s->hasSkin());
   ASSERT_EQ(s->model->obstacles.size(), 1u);
   EXPECT_TRUE(s->model->obstacles[0].deforms);
-  EXPECT_NE(s->notes[0].find("man.gltf: bones as in the map unreal, T-pose (arms 90"), std::string::npos)
-      << s->notes[0];
+  EXPECT_NE(s->facts[0].find("man.gltf: bones as in the map unreal, T-pose (arms 90"), std::string::npos)
+      << s->facts[0];
   // Two mates of one body: drafted on the character, the shorts are as large as on the manikin's own skin.
   Case own = c;
   own.human->character.reset();

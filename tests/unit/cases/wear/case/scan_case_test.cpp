@@ -43,7 +43,7 @@ TEST(WearerCase, MeasuresAreWrittenAgainAndTheirGirthsTold) {
   const Case again = readCase(folder.write("again.json", writeCase(c)));
   EXPECT_EQ(writeCase(again), writeCase(c));
   const auto s = buildScenario(c);
-  EXPECT_NE(s->notes[0].find("manikin: waist 78.0 cm, asked for 78.0 cm"), std::string::npos) << s->notes[0];
+  EXPECT_NE(s->facts[0].find("manikin: waist 78.0 cm, asked for 78.0 cm"), std::string::npos) << s->facts[0];
 }
 
 TEST(WearerCase, AScanWearsShortsAsLargeAsTheBodysThatItIsOf) {
@@ -55,7 +55,7 @@ TEST(WearerCase, AScanWearsShortsAsLargeAsTheBodysThatItIsOf) {
   const auto s = buildScenario(c);
   ASSERT_TRUE(s->hasSkin());
   const auto says = [&](const std::string& words) {
-    for (const std::string& note : s->notes)
+    for (const std::string& note : s->facts)
       if (note.find(words) != std::string::npos) return true;
     return false;
   };

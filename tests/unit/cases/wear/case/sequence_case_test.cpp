@@ -55,9 +55,9 @@ TEST(SequenceCase, CarriesClothThatItAccelerates) {
   SceneRun scene(readCase(folder.write("case.json", lifted)));
   ASSERT_EQ(scene.scenario->bodies, std::vector<std::string>{"lift"});
   EXPECT_EQ(scene.scenario->body_of_obstacle, std::vector<int>{0});
-  EXPECT_NE(scene.scenario->notes[0].find("obstacle lift (frames): 21 frames from -0.100 to 0.900 s, 12 triangles"),
+  EXPECT_NE(scene.scenario->facts[0].find("obstacle lift (frames): 21 frames from -0.100 to 0.900 s, 12 triangles"),
             std::string::npos)
-      << scene.scenario->notes[0];
+      << scene.scenario->facts[0];
   AuditWatch audit;
   Vec3 received{};
   double time = 0;

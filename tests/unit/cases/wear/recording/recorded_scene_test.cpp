@@ -60,6 +60,7 @@ TEST_P(RecordedSceneOf, IsTheSceneOfTheRun) {
   const auto made = buildScenario(libraryCase(name, overrides));
   const auto read = scenarioOf(made->definition, sceneOf(*made), "frames");
   EXPECT_EQ(made->notes, read->notes);
+  EXPECT_EQ(made->facts, read->facts);
   EXPECT_EQ(made->bodies, read->bodies);
   EXPECT_EQ(made->start_s, read->start_s);
   EXPECT_EQ(made->end_s, read->end_s);

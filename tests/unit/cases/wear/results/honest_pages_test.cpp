@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "cases/structure/run.hpp"
 #include "cases/wear/recording/recorder.hpp"
@@ -47,6 +48,42 @@ TEST(RunPage, AGarmentThatTouchesNothingHasNoTorque) {
   EXPECT_NE(page.find("The garment touches nothing that a joint moves"), std::string::npos);
   EXPECT_NE(page.find("Left out, as the garment touches nothing that they move: hip flexion left"), std::string::npos);
   EXPECT_EQ(page.find("0 Nm"), std::string::npos);
+}
+
+/// A walk that ends before its first stride, within it and after it: what is said is of what was played.
+TEST(RunPage, SpeaksOfWhatWasPlayed) {
+  const Folder folder;
+  const auto file = folder.write("walk.json", R"({"name": "walk", "gravity": [0, 0, 0],
+    "garment": {"sheet": {"width": 0.2, "height": 0.2, "cells_u": 2, "cells_v": 2, "corner": [3, 0, 3]}},
+    "fabric": {"thickness": "1 mm", "surface_density": 0.2, "young": 1e4, "poisson": 0,
+               "bending": {"law": "linear", "rigidity": 1e-5}},
+    "human": {"manikin": "male_p50",
+              "motion": {"walk": {"lead_in": "0.1 s", "strides": 1, "stride_time": "0.5 s"}}},
+    "contact": {"friction": 0}, "dressing": {"settle": "20 ms"}, "time": {"max_step": "5 ms"},
+    "analysis": {"joints": ["hip_flexion_left"], "task": "natural_walk"}, "output": {"pictures": []}})");
+  const auto play = [&](const std::string& duration) {
+    runCase(readCase(file, {"time.duration=" + duration}), {folder.path() / "out", 1});
+    return std::pair(nlohmann::json::parse(content(folder.path() / "out/summary.json")),
+                     content(folder.path() / "out/report.html"));
+  };
+  const auto [lead_in, of_lead_in] = play("50 ms");
+  EXPECT_EQ(lead_in["played"], "the lead-in");
+  EXPECT_FALSE(lead_in.contains("strides"));
+  EXPECT_FALSE(lead_in["joints"][0].contains("natural_peak_Nm"));
+  EXPECT_FALSE(lead_in["joints"][0].contains("stride_phase_of_highest_joint_value"));
+  EXPECT_LE(lead_in["feet"]["slip_m"].get<double>(), 0.05);
+  EXPECT_NE(of_lead_in.find("The run ended at 0.05 s, in the lead-in: the first stride begins at 0.10 s."),
+            std::string::npos);
+  EXPECT_EQ(of_lead_in.find("count from the foot strike"), std::string::npos);
+  const auto [part, of_part] = play("0.3 s");
+  EXPECT_EQ(part["played"], "part of a stride");
+  EXPECT_TRUE(part["joints"][0].contains("natural_peak_Nm"));
+  EXPECT_NE(of_part.find("in the first stride (0.10 to 0.60 s)"), std::string::npos);
+  const auto [whole, of_whole] = play("0.6 s");
+  EXPECT_EQ(whole["played"], "strides");
+  EXPECT_TRUE(whole["joints"][0].contains("stride_phase_of_highest_joint_value"));
+  EXPECT_NE(of_whole.find("count from the foot strike at 0.1"), std::string::npos);
+  EXPECT_EQ(of_whole.find("The run ended"), std::string::npos);
 }
 
 /// Thighs that are held together pass through each other: the note names what holds them apart.

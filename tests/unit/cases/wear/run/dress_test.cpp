@@ -84,6 +84,57 @@ TEST(Dress, PanelsAreSewnAndGarmentsComeFreeOfEachOther) {
   EXPECT_EQ(startOf(*from, work).p, s->start_m);
 }
 
+void expectSame(const Dressed& a, const Dressed& b) {
+  EXPECT_EQ(a.body, b.body);
+  EXPECT_EQ(a.posture.q, b.posture.q);
+  ASSERT_EQ(a.garments.size(), b.garments.size());
+  for (std::size_t g = 0; g < a.garments.size(); ++g) {
+    EXPECT_EQ(a.garments[g].name, b.garments[g].name);
+    EXPECT_EQ(a.garments[g].points_m, b.garments[g].points_m);
+    EXPECT_EQ(a.garments[g].law, b.garments[g].law);
+    EXPECT_EQ(a.garments[g].history, b.garments[g].history);
+  }
+}
+
+/// Stopped while a garment settles, while panels are drawn together and between garments: to the same bits.
+TEST(Dress, GoesOnFromWhereItWasStopped) {
+  struct Stop {};
+  const Folder folder;
+  const Case c = readCase(folder.write("case.json", worn),
+                          {"dressing.settle=2 ms", R"(fabric.bending={"law": "stop", "rigidity": "1e-4 N m",
+                                                        "yield_moment": "5e-5 N"})"});
+  const Dressed whole = putOnApart(c);
+  const std::filesystem::path file = folder.path() / "dressing.h5";
+  // Stops when it is kept for the `at`th time; returns how often it was.
+  const auto dressUpTo = [&](int at) {
+    int kept = 0;
+    DressingProgress progress(file, "this run", false);
+    progress.every = {};
+    progress.kept = [&] {
+      if (++kept == at) throw Stop();
+    };
+    try {
+      expectSame(putOnApart(c, progress), whole);
+    } catch (const Stop&) {
+    }
+    return kept;
+  };
+  const int all = dressUpTo(-1);
+  ASSERT_GT(all, 6);
+  std::size_t furthest = 0;
+  for (const int at : {all / 2, all - 1}) {
+    SCOPED_TRACE(at);
+    ASSERT_EQ(dressUpTo(at), at);
+    DressingProgress progress(file, "this run", true);
+    ASSERT_TRUE(progress.resumes());
+    furthest = std::max(furthest, progress.worn().garments.size());
+    expectSame(putOnApart(c, progress), whole);
+  }
+  EXPECT_EQ(furthest, 1u);  // the second was in hand
+  EXPECT_FALSE(DressingProgress(file, "another run", true).resumes());
+  EXPECT_FALSE(std::filesystem::exists(file));
+}
+
 /// A garment that keeps its folds knows of being put on, alone as with others, from memory and from a file; or not,
 /// where the case wipes that. The panels' seams are where they are sewn.
 TEST(Dress, WhatLawsRememberIsKeptOrWiped) {

@@ -7,9 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "analysis/animation/glb.hpp"
 #include "cases/cad/cad_file.hpp"
 #include "cases/cad/tidy.hpp"
 #include "cases/command/cli.hpp"
+#include "cases/wear/results/animation.hpp"
 #include "cases/wear/results/results.hpp"
 #include "cases/wear/results/shown.hpp"
 #include "core/error.hpp"
@@ -170,6 +172,31 @@ TEST_F(Export, FramesAreThinnedEvenly) {
   EXPECT_EQ(some.front(), every.front());
   EXPECT_EQ(some.back(), every.back());
   EXPECT_NEAR(some[1], 0.5 * every.back(), 0.6 * every[1]);
+}
+
+/// The size is told from two frames within 1 %; what would be larger has as many as fit.
+TEST_F(Export, AnimationsKeepBelowTheirLargestSize) {
+  ExportOptions o;
+  o.results = results_;
+  o.glb = folder_->path() / "whole.glb";
+  exportResults(o);
+  const auto whole = static_cast<double>(content(o.glb.string()).size());
+  const std::size_t frames = GlbReader(content(o.glb.string())).times().size();
+  const RecordedRun run = recordedRun(results_);
+  EXPECT_EQ(animatedFrames(run.recording), frames);
+  AnimationOptions two;
+  two.frames = 2;
+  two.color_frame = run.recording.frameCount() - 1;
+  const GlbSize size = glbSize(animationOf(*run.scenario, run.recording, two).scene);
+  EXPECT_NEAR(size.bytes(frames), whole, 0.01 * whole);
+  o.glb = folder_->path() / "part.glb";
+  o.largest_glb = size.bytes(3) + 1;
+  exportResults(o);
+  const std::string part = content(o.glb.string());
+  EXPECT_NEAR(static_cast<double>(part.size()), o.largest_glb, 0.01 * o.largest_glb);
+  EXPECT_EQ(GlbReader(part).times().size(), 3u);
+  o.largest_glb = 1000;
+  EXPECT_THROW(exportResults(o), RunError);
 }
 
 TEST_F(Export, WhatCannotBeWrittenIsSaid) {
