@@ -33,10 +33,12 @@ RiggedMesh rigged(TriangleMesh body, const std::string& file, const Landmarks& m
   for (const char* side : {"_left", "_right"})
     out.bones.push_back({std::string("toes") + side, -1, joints.at(std::string("toes") + side)});
   out.first = {0};
-  for (const VertexWeights& list : weightsOf(body, marks, joints)) {
+  SkinWeights skin = weightsOf(body, marks, joints);
+  for (const VertexWeights& list : skin.weights) {
     for (const auto& [link, w] : list) out.bone.push_back(link), out.weight.push_back(w);
     out.first.push_back(static_cast<int>(out.bone.size()));
   }
+  out.part = std::move(skin.part);
   out.mesh = std::move(body);
   return out;
 }
