@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -11,6 +12,8 @@
 #include "human/body/skin.hpp"
 #include "human/character/character.hpp"
 #include "human/files/mesh.hpp"
+#include "human/files/units.hpp"
+#include "human/manikin/manikin.hpp"
 #include "human/motion/motion.hpp"
 #include "human/motion/standing.hpp"
 #include "human/scan/joints.hpp"
@@ -20,6 +23,7 @@
 #include "human/scan/upright.hpp"
 #include "human/scan/weights.hpp"
 #include "human/skeleton/joint_map.hpp"
+#include "human/skin/overlap.hpp"
 
 namespace gambeson {
 namespace {
@@ -51,6 +55,47 @@ std::vector<std::pair<std::string, double>> girthsOf(const Human& human, const s
   for (const GirthPlane& plane : girthPlanes(human, links))
     girths.emplace_back(plane.zone, tapeGirth(bodySection(human, plane, links, x)));
   return girths;
+}
+
+/// What standing may fold of the skin beyond what the scan has folded itself [m²]: less than a hand's breadth of an armpit.
+constexpr double kFold_m2 = 15e-4;
+
+/// Limits the arms to where the trunk lets them: the least abduction, from that of standing up to the scan's own, at
+/// which the skin passes through itself by at most kFold_m2 more than as scanned, to half a degree. Arms that hang lower
+/// would lie in the trunk, and cloth between them would be crushed.
+void holdArmsOffTheTrunk(Human& human, std::vector<std::string>& notes) {
+  std::vector<Vec3> x(human.skin->rest.vertices.size());
+  const auto folded = [&](const std::vector<Pose>& links) {
+    skinPositions(*human.skin, links, x);
+    return overlapOf(human.skin->rest.triangles, x).area_m2;
+  };
+  std::array<Joint*, 2> shoulders{};
+  double held = held_shoulder_abduction_rad, scanned = 0;
+  const Posture bind = postureOfSkin(human);
+  for (std::size_t s = 0; s < 2; ++s) {
+    const int j = human.skeleton.joint(s == 0 ? "shoulder_abduction_right" : "shoulder_abduction_left");
+    shoulders[s] = &human.skeleton.joints[static_cast<std::size_t>(j)];
+    scanned = std::max(scanned, bind.q[static_cast<std::size_t>(j)]);
+  }
+  const double most = folded(human.skin->bind) + kFold_m2;
+  const auto isFree = [&](double abduction) {
+    for (Joint* j : shoulders) j->lower = abduction;
+    const Posture p = standing(human);
+    return folded(linkPoses(human.skeleton, p.q, p.root)) <= most;
+  };
+  const double usual = shoulders[0]->lower;
+  if (!(scanned > held) || isFree(held)) {
+    for (Joint* j : shoulders) j->lower = usual;
+    return;
+  }
+  double free = scanned;
+  while (free - held > 0.5 * rad_per_deg) {
+    const double middle = 0.5 * (held + free);
+    (isFree(middle) ? free : held) = middle;
+  }
+  for (Joint* j : shoulders) j->lower = free;
+  notes.push_back(fmt::format("its arms are held {:.0f} degrees aside: lower, they would lie in the trunk",
+                              free / rad_per_deg));
 }
 
 }  // namespace
@@ -85,6 +130,7 @@ Human scanOf(const TriangleMesh& raw, const ScanOptions& o, ScanReport* report) 
   Human human = characterOf(rigged(std::move(body), file, marks), options, &found);
   said.pose = found.pose, said.arms_deg = found.arms_deg, said.height_m = found.height_m;
   said.volume_m3 = found.volume_m3;
+  holdArmsOffTheTrunk(human, said.notes);
   const Posture posture = standing(human);
   const std::vector<Pose> links = linkPoses(human.skeleton, posture.q, posture.root);
   const auto scanned = girthsOf(human, human.skin->bind), stands = girthsOf(human, links);

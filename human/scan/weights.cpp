@@ -17,11 +17,6 @@ constexpr int kMostAverages = 40;
 /// (human/skin/make_skin.cpp).
 constexpr double kFoot = 0.10, kShank = 0.25, kThigh = 0.28, kHand = 0.15, kForearm = 0.25, kUpperArm = 0.25,
                  kHead = 0.12, kTorso = 0.22;
-/// At the height of the armpit the band lies on the arm alone, over this share of the upper arm's length: an arm that comes
-/// down by theta folds its underside into the trunk where r theta, r below the joint, is more than the opening between
-/// them, and the trunk's wall stays where it is (human/DECISIONS.md).
-constexpr double kUnderside = 0.35;
-
 constexpr double kBetween = 0.03;  ///< half the width over which thighs part below the trunk, in statures
 
 double step(double u) {
@@ -104,12 +99,13 @@ class Weigher {
                       [half_width](std::size_t) { return Reach{half_width, half_width}; }});
   }
 
-  /// Of the upper arm's band: alike on both sides at the height of the joint and above, on the arm at the armpit's.
+  /// Of the upper arm's band: alike on both sides at the height of the joint and above, on the arm alone at the armpit's,
+  /// where the trunk's wall stays and the arm's underside gives way to it.
   std::function<Reach(std::size_t)> shoulderReach(const Vec3& shoulder, const Vec3& armpit, double upper_arm) const {
     const Vec3 down = armpit - shoulder;
     return [=, this](std::size_t v) {
       const double under = step(dot(down, body_.vertices[v] - shoulder) / norm2(down));
-      return Reach{upper_arm * (1 - under) * kUpperArm, upper_arm * ((1 - under) * kUpperArm + under * kUnderside)};
+      return Reach{upper_arm * (1 - under) * kUpperArm, upper_arm * kUpperArm};
     };
   }
 

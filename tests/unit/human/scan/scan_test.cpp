@@ -160,21 +160,9 @@ double foldedArea(const Human& h, const std::vector<Pose>& links) {
   return overlapOf(h.skin->rest.triangles, x).area_m2;
 }
 
-/// And what is beyond the armpit counts as arm, though it turns little with it.
 TEST(Scan, ArmsComeDownWithoutFoldingIntoTheTrunk) {
   const Human h = made(aPose().mesh);
-  EXPECT_LT(foldedArea(h, standingLinks(h)), foldedArea(h, h.skin->bind) + 20e-4);
-  const int arm = h.skeleton.link("upper_arm_left");
-  const Vec3 shoulder = h.skin->bind[static_cast<std::size_t>(arm)].origin;
-  int inner = 0, gives_way = 0;
-  for (std::size_t v = 0; v < h.skin->segment.size(); ++v) {
-    if (h.skin->segment[v] != arm || h.skin->rest.vertices[v].z > shoulder.z - 0.1) continue;
-    ++inner;
-    for (int i = h.skin->first[v]; i < h.skin->first[v + 1]; ++i)
-      gives_way += h.skin->link[static_cast<std::size_t>(i)] == arm && h.skin->weight[static_cast<std::size_t>(i)] < 0.5;
-  }
-  EXPECT_GT(inner, 100);
-  EXPECT_GT(gives_way, 3);
+  EXPECT_LE(foldedArea(h, standingLinks(h)), foldedArea(h, h.skin->bind) + 15e-4);
 }
 
 /// Runs with a message of this key, and these words.
@@ -370,14 +358,16 @@ TEST(RealScans, GarmentCodesMeanBodyHasItsPublishedGirths) {
       ++compared;
       EXPECT_NEAR(g.scan_m, published, 0.01 * published) << g.name;
     }
-    // The legs come together by 5 degrees: what their tops bulge by is the most that changes of the trunk. Arms give way
-    // to the trunk by their underside (human/DECISIONS.md).
-    const double changes = g.name == "widest hip" ? 0.013 : g.name.starts_with("upper_arm") ? 0.05 : 0.01;
-    EXPECT_NEAR(g.standing_m, g.scan_m, changes * g.scan_m) << g.name;
+    // The legs come together by 5 degrees: what their tops bulge by is the most that changes.
+    EXPECT_NEAR(g.standing_m, g.scan_m, (g.name == "widest hip" ? 0.013 : 0.01) * g.scan_m) << g.name;
   }
   const double scanned = foldedArea(h, h.skin->bind), stands = foldedArea(h, standingLinks(h));
-  EXPECT_LT(scanned, 12e-4);  // lips, armpits and crotch
-  EXPECT_LT(stands, 40e-4);   // 181 cm^2 with a band that was as wide on the trunk as on the arm
+  EXPECT_LT(scanned, 12e-4);            // lips, armpits and crotch
+  EXPECT_LE(stands, scanned + 15e-4);  // 181 cm^2 with arms at 20 degrees
+  const Posture p = standing(h);
+  const double arms = p.q[static_cast<std::size_t>(h.skeleton.joint("shoulder_abduction_left"))] / rad_per_deg;
+  EXPECT_GT(arms, 28);
+  EXPECT_LT(arms, 40);
   EXPECT_EQ(compared, 6);
 }
 
