@@ -19,8 +19,7 @@ Posture standing(const Human& human) {
     const int hip = human.skeleton.joint(std::string("hip_adduction") + side);
     const int shoulder = human.skeleton.joint(std::string("shoulder_abduction") + side);
     if (hip >= 0) p.q[hip] = -held_hip_abduction_rad;
-    if (shoulder >= 0)
-      p.q[shoulder] = std::max(held_shoulder_abduction_rad, human.skeleton.joints[shoulder].lower);
+    if (shoulder >= 0) p.q[shoulder] = std::max(held_shoulder_abduction_rad, human.skeleton.joints[shoulder].lower);
   }
   p.root.origin.z = -lowestHeight(human, linkPoses(human.skeleton, p.q, p.root));
   return p;

@@ -57,12 +57,13 @@ std::vector<std::pair<std::string, double>> girthsOf(const Human& human, const s
   return girths;
 }
 
-/// What standing may fold of the skin beyond what the scan has folded itself [m²]: less than a hand's breadth of an armpit.
+/// What standing may fold of the skin beyond what the scan has folded itself [m²]: less than a hand's breadth of an
+/// armpit.
 constexpr double kFold_m2 = 15e-4;
 
 /// Limits the arms to where the trunk lets them: the least abduction, from that of standing up to the scan's own, at
-/// which the skin passes through itself by at most kFold_m2 more than as scanned, to half a degree. Arms that hang lower
-/// would lie in the trunk, and cloth between them would be crushed.
+/// which the skin passes through itself by at most kFold_m2 more than as scanned, to half a degree. Arms that hang
+/// lower would lie in the trunk, and cloth between them would be crushed.
 void holdArmsOffTheTrunk(Human& human, std::vector<std::string>& notes) {
   std::vector<Vec3> x(human.skin->rest.vertices.size());
   const auto folded = [&](const std::vector<Pose>& links) {
@@ -94,8 +95,8 @@ void holdArmsOffTheTrunk(Human& human, std::vector<std::string>& notes) {
     (isFree(middle) ? free : held) = middle;
   }
   for (Joint* j : shoulders) j->lower = free;
-  notes.push_back(fmt::format("its arms are held {:.0f} degrees aside: lower, they would lie in the trunk",
-                              free / rad_per_deg));
+  notes.push_back(
+      fmt::format("its arms are held {:.0f} degrees aside: lower, they would lie in the trunk", free / rad_per_deg));
 }
 
 }  // namespace

@@ -95,12 +95,13 @@ class Weigher {
   }
 
   void add(const std::string& child, const std::string& parent, std::vector<char> beyond, double half_width) {
-    bands_.push_back({link(child), link(parent), std::move(beyond),
-                      [half_width](std::size_t) { return Reach{half_width, half_width}; }});
+    bands_.push_back({link(child), link(parent), std::move(beyond), [half_width](std::size_t) {
+                        return Reach{half_width, half_width};
+                      }});
   }
 
-  /// Of the upper arm's band: alike on both sides at the height of the joint and above, on the arm alone at the armpit's,
-  /// where the trunk's wall stays and the arm's underside gives way to it.
+  /// Of the upper arm's band: alike on both sides at the height of the joint and above, on the arm alone at the
+  /// armpit's, where the trunk's wall stays and the arm's underside gives way to it.
   std::function<Reach(std::size_t)> shoulderReach(const Vec3& shoulder, const Vec3& armpit, double upper_arm) const {
     const Vec3 down = armpit - shoulder;
     return [=, this](std::size_t v) {
@@ -249,8 +250,7 @@ const std::vector<std::string>& scanLinks() {
   return links;
 }
 
-SkinWeights weightsOf(const TriangleMesh& body, const Landmarks& landmarks,
-                      const std::map<std::string, Vec3>& joints) {
+SkinWeights weightsOf(const TriangleMesh& body, const Landmarks& landmarks, const std::map<std::string, Vec3>& joints) {
   return Weigher(body, landmarks, joints).take();
 }
 

@@ -288,8 +288,7 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
                                     {"mean_z_N", r.mean_N.z},
                                     {"mean_normal_N", r.normal_N},
                                     {"mean_friction_N", r.friction_N}});
-  if (m.law_range.points > 0)
-    j["law_range"] = {{"points", m.law_range.points}, {"most_beyond", m.law_range.beyond}};
+  if (m.law_range.points > 0) j["law_range"] = {{"points", m.law_range.points}, {"most_beyond", m.law_range.beyond}};
   j["body_zones"] = zonesJson(m.zones);
   j["comfort"] = Json::object();
   for (const ComfortMeasure& c : m.comfort)

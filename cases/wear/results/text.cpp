@@ -101,7 +101,8 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
       {"Energy", 100 * m.energy.relative(), m.energy.integrator ? 1e-4 : 5., "%",
        m.energy.integrator
            ? "over the motion: the change of the total energy against the works of contact, drag and supports and what "
-             "the integrator itself made or took, of the sum of the absolute works, or of what lifts the cloth by 1 mm where that is more"
+             "the integrator itself made or took, of the sum of the absolute works, or of what lifts the cloth by 1 mm "
+             "where that is more"
            : "over the motion: the change of the total energy against the works of contact, drag and supports, "
              "of the sum of the absolute works, or of what lifts the cloth by 1 mm where that is more"},
       {"Penetration", 1e3 * m.steps.deepest_m, 0.2, "mm",

@@ -362,7 +362,7 @@ TEST(RealScans, GarmentCodesMeanBodyHasItsPublishedGirths) {
     EXPECT_NEAR(g.standing_m, g.scan_m, (g.name == "widest hip" ? 0.013 : 0.01) * g.scan_m) << g.name;
   }
   const double scanned = foldedArea(h, h.skin->bind), stands = foldedArea(h, standingLinks(h));
-  EXPECT_LT(scanned, 12e-4);            // lips, armpits and crotch
+  EXPECT_LT(scanned, 12e-4);           // lips, armpits and crotch
   EXPECT_LE(stands, scanned + 15e-4);  // 181 cm^2 with arms at 20 degrees
   const Posture p = standing(h);
   const double arms = p.q[static_cast<std::size_t>(h.skeleton.joint("shoulder_abduction_left"))] / rad_per_deg;
