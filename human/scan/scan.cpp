@@ -57,44 +57,42 @@ std::vector<std::pair<std::string, double>> girthsOf(const Human& human, const s
   return girths;
 }
 
-/// What standing may fold of the skin beyond what the scan has folded itself [m²]: less than a hand's breadth of an
-/// armpit.
-constexpr double kFold_m2 = 15e-4;
+/// What arms that come down may fold of the skin [m²]: beyond that cloth in the armpits has no room.
+constexpr double kFold_m2 = 2e-4;
+/// Farther aside no arms are held, as of a body that was scanned in a T-pose.
+constexpr double kMostAside_rad = 45 * rad_per_deg;
 
-/// Limits the arms to where the trunk lets them: the least abduction, from that of standing up to the scan's own, at
-/// which the skin passes through itself by at most kFold_m2 more than as scanned, to half a degree. Arms that hang
-/// lower would lie in the trunk, and cloth between them would be crushed.
+/// Limits the arms to where the trunk lets them: the least abduction, from the usual one of standing up to the scan's
+/// own, to half a degree, at which the standing skin passes through itself by at most kFold_m2 more than with the arms
+/// as they were scanned. Lower ones would lie in the trunk, and crush the cloth between them.
 void holdArmsOffTheTrunk(Human& human, std::vector<std::string>& notes) {
-  std::vector<Vec3> x(human.skin->rest.vertices.size());
-  const auto folded = [&](const std::vector<Pose>& links) {
-    skinPositions(*human.skin, links, x);
-    return overlapOf(human.skin->rest.triangles, x).area_m2;
-  };
   std::array<Joint*, 2> shoulders{};
-  double held = held_shoulder_abduction_rad, scanned = 0;
   const Posture bind = postureOfSkin(human);
+  double aside = 0;
   for (std::size_t s = 0; s < 2; ++s) {
     const int j = human.skeleton.joint(s == 0 ? "shoulder_abduction_right" : "shoulder_abduction_left");
     shoulders[s] = &human.skeleton.joints[static_cast<std::size_t>(j)];
-    scanned = std::max(scanned, bind.q[static_cast<std::size_t>(j)]);
+    aside = std::max(aside, std::min(bind.q[static_cast<std::size_t>(j)], kMostAside_rad));
   }
-  const double most = folded(human.skin->bind) + kFold_m2;
-  const auto isFree = [&](double abduction) {
-    for (Joint* j : shoulders) j->lower = abduction;
-    const Posture p = standing(human);
-    return folded(linkPoses(human.skeleton, p.q, p.root)) <= most;
-  };
   const double usual = shoulders[0]->lower;
-  if (!(scanned > held) || isFree(held)) {
-    for (Joint* j : shoulders) j->lower = usual;
-    return;
+  const auto limit = [&](double abduction) {
+    for (Joint* j : shoulders) j->lower = abduction;
+  };
+  std::vector<Vec3> x(human.skin->rest.vertices.size());
+  const auto foldedAt = [&](double abduction) {
+    limit(abduction);
+    const Posture p = standing(human);
+    skinPositions(*human.skin, linkPoses(human.skeleton, p.q, p.root), x);
+    return overlapOf(human.skin->rest.triangles, x).area_m2;
+  };
+  const double most = foldedAt(aside) + kFold_m2;
+  double lies = held_shoulder_abduction_rad, free = aside;
+  if (!(aside > lies) || foldedAt(lies) <= most) return limit(usual);
+  while (free - lies > 0.5 * rad_per_deg) {
+    const double middle = 0.5 * (lies + free);
+    (foldedAt(middle) <= most ? free : lies) = middle;
   }
-  double free = scanned;
-  while (free - held > 0.5 * rad_per_deg) {
-    const double middle = 0.5 * (held + free);
-    (isFree(middle) ? free : held) = middle;
-  }
-  for (Joint* j : shoulders) j->lower = free;
+  limit(free);
   notes.push_back(
       fmt::format("its arms are held {:.0f} degrees aside: lower, they would lie in the trunk", free / rad_per_deg));
 }
