@@ -265,7 +265,7 @@ class Fit {
         skin_.weight.push_back(w);
         if (w > sum[best]) best = l;
       }
-      skin_.segment.push_back(best);
+      skin_.segment.push_back(body_.part.empty() ? best : of[static_cast<std::size_t>(body_.part[v])]);
       skin_.first.push_back(static_cast<int>(skin_.link.size()));
     }
   }

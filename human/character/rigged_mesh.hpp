@@ -23,6 +23,7 @@ struct RiggedMesh {
   std::vector<RiggedBone> bones;  ///< parents first
   std::vector<int> first, bone;   ///< bones of vertex v: bone[first[v]] .. bone[first[v + 1] - 1]; none: no weight
   std::vector<double> weight;     ///< as `bone`, as the file has them
+  std::vector<int> part;          ///< the bone that each vertex is counted to; empty: that of its largest weight
   std::vector<std::string> notes;
 
   int find(const std::string& name) const;  ///< bone; -1 where there is none

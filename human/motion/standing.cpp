@@ -1,5 +1,6 @@
 #include "human/motion/standing.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -18,7 +19,7 @@ Posture standing(const Human& human) {
     const int hip = human.skeleton.joint(std::string("hip_adduction") + side);
     const int shoulder = human.skeleton.joint(std::string("shoulder_abduction") + side);
     if (hip >= 0) p.q[hip] = -held_hip_abduction_rad;
-    if (shoulder >= 0) p.q[shoulder] = held_shoulder_abduction_rad;
+    if (shoulder >= 0) p.q[shoulder] = std::max(held_shoulder_abduction_rad, human.skeleton.joints[shoulder].lower);
   }
   p.root.origin.z = -lowestHeight(human, linkPoses(human.skeleton, p.q, p.root));
   return p;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/error.hpp"
@@ -11,6 +12,8 @@
 #include "human/body/skin.hpp"
 #include "human/character/character.hpp"
 #include "human/files/mesh.hpp"
+#include "human/files/units.hpp"
+#include "human/manikin/manikin.hpp"
 #include "human/motion/motion.hpp"
 #include "human/motion/standing.hpp"
 #include "human/scan/joints.hpp"
@@ -20,6 +23,7 @@
 #include "human/scan/upright.hpp"
 #include "human/scan/weights.hpp"
 #include "human/skeleton/joint_map.hpp"
+#include "human/skin/overlap.hpp"
 
 namespace gambeson {
 namespace {
@@ -33,10 +37,12 @@ RiggedMesh rigged(TriangleMesh body, const std::string& file, const Landmarks& m
   for (const char* side : {"_left", "_right"})
     out.bones.push_back({std::string("toes") + side, -1, joints.at(std::string("toes") + side)});
   out.first = {0};
-  for (const VertexWeights& list : weightsOf(body, marks, joints)) {
+  SkinWeights skin = weightsOf(body, marks, joints);
+  for (const VertexWeights& list : skin.weights) {
     for (const auto& [link, w] : list) out.bone.push_back(link), out.weight.push_back(w);
     out.first.push_back(static_cast<int>(out.bone.size()));
   }
+  out.part = std::move(skin.part);
   out.mesh = std::move(body);
   return out;
 }
@@ -49,6 +55,46 @@ std::vector<std::pair<std::string, double>> girthsOf(const Human& human, const s
   for (const GirthPlane& plane : girthPlanes(human, links))
     girths.emplace_back(plane.zone, tapeGirth(bodySection(human, plane, links, x)));
   return girths;
+}
+
+/// What arms that come down may fold of the skin [m²]: beyond that cloth in the armpits has no room.
+constexpr double kFold_m2 = 2e-4;
+/// Farther aside no arms are held, as of a body that was scanned in a T-pose.
+constexpr double kMostAside_rad = 45 * rad_per_deg;
+
+/// Limits the arms to where the trunk lets them: the least abduction, from the usual one of standing up to the scan's
+/// own, to half a degree, at which the standing skin passes through itself by at most kFold_m2 more than with the arms
+/// as they were scanned. Lower ones would lie in the trunk, and crush the cloth between them.
+void holdArmsOffTheTrunk(Human& human, std::vector<std::string>& notes) {
+  std::array<Joint*, 2> shoulders{};
+  const Posture bind = postureOfSkin(human);
+  double aside = 0;
+  for (std::size_t s = 0; s < 2; ++s) {
+    const int j = human.skeleton.joint(s == 0 ? "shoulder_abduction_right" : "shoulder_abduction_left");
+    shoulders[s] = &human.skeleton.joints[static_cast<std::size_t>(j)];
+    aside = std::max(aside, std::min(bind.q[static_cast<std::size_t>(j)], kMostAside_rad));
+  }
+  const double usual = shoulders[0]->lower;
+  const auto limit = [&](double abduction) {
+    for (Joint* j : shoulders) j->lower = abduction;
+  };
+  std::vector<Vec3> x(human.skin->rest.vertices.size());
+  const auto foldedAt = [&](double abduction) {
+    limit(abduction);
+    const Posture p = standing(human);
+    skinPositions(*human.skin, linkPoses(human.skeleton, p.q, p.root), x);
+    return overlapOf(human.skin->rest.triangles, x).area_m2;
+  };
+  const double most = foldedAt(aside) + kFold_m2;
+  double lies = held_shoulder_abduction_rad, free = aside;
+  if (!(aside > lies) || foldedAt(lies) <= most) return limit(usual);
+  while (free - lies > 0.5 * rad_per_deg) {
+    const double middle = 0.5 * (lies + free);
+    (foldedAt(middle) <= most ? free : lies) = middle;
+  }
+  limit(free);
+  notes.push_back(
+      fmt::format("its arms are held {:.0f} degrees aside: lower, they would lie in the trunk", free / rad_per_deg));
 }
 
 }  // namespace
@@ -83,6 +129,7 @@ Human scanOf(const TriangleMesh& raw, const ScanOptions& o, ScanReport* report) 
   Human human = characterOf(rigged(std::move(body), file, marks), options, &found);
   said.pose = found.pose, said.arms_deg = found.arms_deg, said.height_m = found.height_m;
   said.volume_m3 = found.volume_m3;
+  holdArmsOffTheTrunk(human, said.notes);
   const Posture posture = standing(human);
   const std::vector<Pose> links = linkPoses(human.skeleton, posture.q, posture.root);
   const auto scanned = girthsOf(human, human.skin->bind), stands = girthsOf(human, links);

@@ -36,7 +36,8 @@ struct ScanReport {
 };
 
 /// The scan is cleaned (repair.hpp), stood up and scaled (upright.hpp); joints follow from landmarks (landmarks.hpp,
-/// joints.hpp) and weights from distances along the skin (weights.hpp). Throws InputError with file and key, the
+/// joints.hpp) and weights from distances along the skin (weights.hpp); the lower limit of the shoulders' abduction is
+/// where the arms meet the trunk. Throws InputError with file and key, the
 /// landmark that was not found among them.
 Human loadScan(const ScanOptions& options, ScanReport* report = nullptr);
 /// The same of a mesh, whose file is only named.

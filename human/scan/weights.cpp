@@ -17,7 +17,6 @@ constexpr int kMostAverages = 40;
 /// (human/skin/make_skin.cpp).
 constexpr double kFoot = 0.10, kShank = 0.25, kThigh = 0.28, kHand = 0.15, kForearm = 0.25, kUpperArm = 0.25,
                  kHead = 0.12, kTorso = 0.22;
-
 constexpr double kBetween = 0.03;  ///< half the width over which thighs part below the trunk, in statures
 
 double step(double u) {
@@ -25,11 +24,16 @@ double step(double u) {
   return u * u * (3 - 2 * u);
 }
 
+/// How far a band reaches from its border, towards the trunk and along the limb.
+struct Reach {
+  double before_m, beyond_m;
+};
+
 struct Band {
   int child, parent;  ///< in scanLinks()
   std::vector<char> beyond;
-  double half_width_m;
-  std::vector<double> most;  ///< by vertex; empty: 1
+  std::function<Reach(std::size_t)> reach;  ///< at a vertex
+  std::vector<double> most{};               ///< by vertex; empty: 1
 };
 
 class Weigher {
@@ -52,13 +56,14 @@ class Weigher {
     bands();
     shares();
   }
-  std::vector<VertexWeights> take() { return std::move(out_); }
+  SkinWeights take() { return std::move(out_); }
 
  private:
   static int link(const std::string& name) {
     const auto& all = scanLinks();
     return static_cast<int>(std::find(all.begin(), all.end(), name) - all.begin());
   }
+  static bool isArm(int l) { return scanLinks()[static_cast<std::size_t>(l)].starts_with("upper_arm"); }
   const Vec3& at(const std::string& name) const { return joints_.at(name); }
 
   std::vector<char> where(const std::function<bool(std::size_t)>& is) const {
@@ -90,7 +95,19 @@ class Weigher {
   }
 
   void add(const std::string& child, const std::string& parent, std::vector<char> beyond, double half_width) {
-    bands_.push_back({link(child), link(parent), std::move(beyond), half_width, {}});
+    bands_.push_back({link(child), link(parent), std::move(beyond), [half_width](std::size_t) {
+                        return Reach{half_width, half_width};
+                      }});
+  }
+
+  /// Of the upper arm's band: alike on both sides at the height of the joint and above, on the arm alone at the
+  /// armpit's, where the trunk's wall stays and the arm's underside gives way to it.
+  std::function<Reach(std::size_t)> shoulderReach(const Vec3& shoulder, const Vec3& armpit, double upper_arm) const {
+    const Vec3 down = armpit - shoulder;
+    return [=, this](std::size_t v) {
+      const double under = step(dot(down, body_.vertices[v] - shoulder) / norm2(down));
+      return Reach{upper_arm * (1 - under) * kUpperArm, upper_arm * kUpperArm};
+    };
   }
 
   void bands() {
@@ -113,7 +130,8 @@ class Weigher {
       };
       add("hand" + name, "forearm" + name, part(wrist, wrist - elbow), kHand * upper_arm);
       add("forearm" + name, "upper_arm" + name, part(elbow, wrist - shoulder), kForearm * upper_arm);
-      add("upper_arm" + name, "torso", arm[s], kUpperArm * upper_arm);
+      add("upper_arm" + name, "torso", arm[s], 0);
+      bands_.back().reach = shoulderReach(shoulder, marks_.armpit[s], upper_arm);
     }
     const std::vector<char> legs = legsBelow(body_, marks_.crotch.z - 1e-3);
     for (int side = 0; side < 2; ++side) {
@@ -154,7 +172,7 @@ class Weigher {
         kTorso * trunk);
   }
 
-  /// 0 to 1 over the band: half at the border, smooth.
+  /// 0 to 1 over the band, smooth; half at the border of one that reaches as far on both sides.
   std::vector<double> share(const Band& b) const {
     std::vector<int> in, out;
     for (std::size_t v = 0; v < b.beyond.size(); ++v) (b.beyond[v] ? in : out).push_back(static_cast<int>(v));
@@ -162,7 +180,8 @@ class Weigher {
     std::vector<double> s(b.beyond.size());
     for (std::size_t v = 0; v < s.size(); ++v) {
       const double signed_m = b.beyond[v] ? to_out[v] : -to_in[v];
-      s[v] = step(0.5 + 0.5 * signed_m / b.half_width_m) * (b.most.empty() ? 1 : b.most[v]);
+      const auto [before_m, beyond_m] = b.reach(v);
+      s[v] = step((signed_m + before_m) / (before_m + beyond_m)) * (b.most.empty() ? 1 : b.most[v]);
     }
     std::vector<double> next(s.size());
     for (int k = 0; k < averages_; ++k) {
@@ -185,7 +204,7 @@ class Weigher {
       own[static_cast<std::size_t>(b.child)] = share(b);
       parent[static_cast<std::size_t>(b.child)] = b.parent;
     }
-    out_.resize(n);
+    out_.weights.resize(n), out_.part.resize(n);
     std::vector<double> total(links), weight(links);
     const auto torso = static_cast<std::size_t>(link("torso"));
     for (std::size_t v = 0; v < n; ++v) {
@@ -199,9 +218,16 @@ class Weigher {
       }
       for (std::size_t l = 1; l < links; ++l) weight[static_cast<std::size_t>(parent[l])] -= total[l];
       double sum = 0;
+      VertexWeights& list = out_.weights[v];
       for (std::size_t l = 0; l < links; ++l)
-        if (weight[l] > 1e-6) out_[v].emplace_back(static_cast<int>(l), weight[l]), sum += weight[l];
-      for (auto& [l, w] : out_[v]) w /= sum;
+        if (weight[l] > 1e-6) list.emplace_back(static_cast<int>(l), weight[l]), sum += weight[l];
+      for (auto& [l, w] : list) w /= sum;
+      int& part = out_.part[v];
+      part = std::max_element(list.begin(), list.end(), [](const auto& a, const auto& b) {
+               return a.second < b.second;
+             })->first;
+      for (const Band& b : bands_)  // the arm begins at the armpit, wherever it turns
+        if (part == static_cast<int>(torso) && b.parent == part && b.beyond[v] && isArm(b.child)) part = b.child;
     }
   }
 
@@ -210,7 +236,7 @@ class Weigher {
   const std::map<std::string, Vec3>& joints_;
   std::vector<std::vector<int>> beside_;
   std::vector<Band> bands_;
-  std::vector<VertexWeights> out_;
+  SkinWeights out_;
   int averages_ = 1;
 };
 
@@ -224,8 +250,7 @@ const std::vector<std::string>& scanLinks() {
   return links;
 }
 
-std::vector<VertexWeights> weightsOf(const TriangleMesh& body, const Landmarks& landmarks,
-                                     const std::map<std::string, Vec3>& joints) {
+SkinWeights weightsOf(const TriangleMesh& body, const Landmarks& landmarks, const std::map<std::string, Vec3>& joints) {
   return Weigher(body, landmarks, joints).take();
 }
 

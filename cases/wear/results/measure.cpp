@@ -410,6 +410,7 @@ Measured measure(const Scenario& s, const RecordingReader& recording) {
   measureSupports(s, inMotion(recording, "supports"), out);
   for (const GarmentMeasure& l : garmentMeasuresOf(s)) out.cloth_kg += l.mass_kg;
   out.energy.negligible = 0.5 * out.cloth_kg * 1e-12;
+  out.energy.lift = out.cloth_kg * norm(s.definition.gravity_m_per_s2) * EnergyMeasure::lift_m;
   measureSteps(recording, out);
   measureMemory(s, recording, out);
   out.limited = s.definition.strain_limit.has_value();

@@ -180,14 +180,24 @@ struct EnergyMeasure {
   double lost = 0;  ///< in the cloth: to what its laws remember, and to its damping
   /// Below it a sum of works is rounding: what moves the cloth's mass at a micrometre per second.
   double negligible = 0;
+  /// What lifts the cloth by lift_m, m g h. Cloth that hangs still has next to no work done on it, of which any drift
+  /// is a large share; what counts then is how far the cloth could have sunk or risen by it. 0 without gravity.
+  double lift = 0;
+  static constexpr double lift_m = 1e-3;
   double dissipated = 0;  ///< by friction, inelastic impact, drag and in the cloth
   /// What the scheme itself made (positive) or took, where the run has kept account of it.
   std::optional<double> integrator;
   double drift() const { return change - (contact + drag + supports + limit - lost + integrator.value_or(0)); }
   std::vector<std::array<double, 11>> rows;  ///< of the windows of the motion, as energy.csv has them
-  double relative() const { return absolute > negligible ? drift() / absolute : 0; }
-  /// What the scheme made, of the works.
-  double made() const { return absolute > negligible ? std::max(0.0, integrator.value_or(0)) / absolute : 0; }
+  /// The drift, of the works or of the lift, whichever is more: 5 % are 5 % of the work of a motion, and of cloth at
+  /// rest what moves it by 0.05 mm.
+  double relative() const { return ofWorks(drift()); }
+  /// What the scheme made, likewise.
+  double made() const { return ofWorks(std::max(0.0, integrator.value_or(0))); }
+  double ofWorks(double energy) const {
+    const double works = std::max(absolute, lift);
+    return works <= negligible ? 0 : energy / works;  // NaN fails
+  }
 };
 
 /// As the recording stores it, in single precision.

@@ -342,6 +342,7 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
                  {"work_supports_J", m.energy.supports},
                  {"drift_J", m.energy.drift()},
                  {"sum_of_absolute_works_J", m.energy.absolute},
+                 {"lift_by_1_mm_J", m.energy.lift},
                  {"drift_ratio", m.energy.relative()}};
   if (m.energy.lost > 0) j["energy"]["lost_energy_J"] = m.energy.lost;
   if (m.energy.integrator) j["energy"]["work_integrator_J"] = *m.energy.integrator;

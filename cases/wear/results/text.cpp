@@ -102,9 +102,10 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
       {"Energy", 100 * m.energy.relative(), m.energy.integrator ? 1e-4 : 5., "%",
        m.energy.integrator
            ? "over the motion: the change of the total energy against the works of contact, drag and supports and what "
-             "the integrator itself made or took, of the sum of the absolute works"
+             "the integrator itself made or took, of the sum of the absolute works, or of what lifts the cloth by 1 mm "
+             "where that is more"
            : "over the motion: the change of the total energy against the works of contact, drag and supports, "
-             "of the sum of the absolute works"},
+             "of the sum of the absolute works, or of what lifts the cloth by 1 mm where that is more"},
       {"Penetration", 1e3 * m.steps.deepest_m, 0.2, "mm",
        "the deepest point of the cloth's samples inside the body, over the motion"},
       {"Contact solver",
@@ -114,7 +115,7 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
        "largest impulse where cloth is jammed"}};
   if (m.energy.integrator)
     checks.push_back({"Integrator", 100 * m.energy.made(), 5, "%",
-                      "energy that the integrator itself made over the motion, of the sum of the absolute works"});
+                      "energy that the integrator itself made over the motion, of the same works"});
   double pinched = 0;
   for (const CollisionWindow& w : m.steps.collisions) pinched += static_cast<double>(w.pinched);
   checks.push_back({"Intersections",

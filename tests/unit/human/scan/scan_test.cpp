@@ -19,6 +19,7 @@
 #include "human/scan/loops.hpp"
 #include "human/scan/repair.hpp"
 #include "human/scan/upright.hpp"
+#include "human/skin/overlap.hpp"
 #include "tools/data_folder.hpp"
 #include "tools/scan_bodies.hpp"
 #include "unit/human/scan/scan_body.hpp"
@@ -178,6 +179,31 @@ TEST(Scan, GirthsOfTheTrunkStayWithinOnePercentAsTheArmsComeDown) {
     const double scan = trunkGirth(h, h.skin->rest.vertices, z), now = trunkGirth(h, x, z + lift);
     EXPECT_NEAR(now, scan, 0.01 * scan) << z;
   }
+}
+
+std::vector<Pose> standingLinks(const Human& h) {
+  const Posture p = standing(h);
+  return linkPoses(h.skeleton, p.q, p.root);
+}
+
+double abductionStanding(const Human& h) {
+  return standing(h).q[static_cast<std::size_t>(h.skeleton.joint("shoulder_abduction_left"))] / rad_per_deg;
+}
+
+double foldedArea(const Human& h, const std::vector<Pose>& links) {
+  std::vector<Vec3> x(h.skin->rest.vertices.size());
+  skinPositions(*h.skin, links, x);
+  return overlapOf(h.skin->rest.triangles, x).area_m2;
+}
+
+TEST(Scan, ArmsComeDownWithoutFoldingIntoTheTrunk) {
+  const Human h = made(aPose().mesh);
+  EXPECT_LE(foldedArea(h, standingLinks(h)), foldedArea(h, h.skin->bind) + 12e-4);
+  EXPECT_GE(abductionStanding(h), 19.9);
+  EXPECT_LE(abductionStanding(h), 45);
+  // As of a T-pose, from which they come down by more.
+  const Human t = made(test::scanBody("male_p50", 85).mesh);
+  EXPECT_LE(abductionStanding(t), 45.001);
 }
 
 /// Runs with a message of this key, and these words.
@@ -382,6 +408,12 @@ TEST(RealScans, GarmentCodesMeanBodyHasItsPublishedGirths) {
     // The legs come together by 5 degrees: what their tops bulge by is the most that changes.
     EXPECT_NEAR(g.standing_m, g.scan_m, (g.name == "widest hip" ? 0.013 : 0.01) * g.scan_m) << g.name;
   }
+  const double scanned = foldedArea(h, h.skin->bind), stands = foldedArea(h, standingLinks(h));
+  EXPECT_LT(scanned, 12e-4);           // lips, armpits and crotch
+  EXPECT_LE(stands, scanned + 12e-4);  // 181 cm^2 with arms at 20 degrees
+  const double arms = abductionStanding(h);
+  EXPECT_GT(arms, 30);
+  EXPECT_LT(arms, 42.5);
   EXPECT_EQ(compared, 6);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "cases/wear/recording/recorder.hpp"
 #include "cases/wear/results/check_words.hpp"
@@ -271,6 +272,32 @@ TEST(Fit, WorksOfRoundingAreNoWorks) {
   e.change = 5.6e-9;
   e.absolute = 1e-9;
   EXPECT_NEAR(e.relative(), 5.6, 1e-9);
+}
+
+/// A shirt of 0.2 kg that hangs still: half a millijoule of work, and a drift that could lift it by 0.03 mm. What could
+/// lift it by 0.06 mm fails (5 %), with whatever sign, without any work at all, and where nothing is a number.
+TEST(Fit, DriftsOfClothAtRestAreMeasuredByItsWeight) {
+  EnergyMeasure e;
+  e.negligible = 0.5 * 0.2 * 1e-12;
+  e.lift = 0.2 * 9.81 * EnergyMeasure::lift_m;
+  e.absolute = 0.5e-3;
+  e.contact = -0.4e-3;
+  e.change = e.contact + 0.2 * 9.81 * 0.03e-3;
+  EXPECT_NEAR(e.relative(), 0.03, 1e-12);
+  e.change = e.contact - 0.2 * 9.81 * 0.06e-3;
+  EXPECT_NEAR(e.relative(), -0.06, 1e-12);
+  e.absolute = e.contact = 0;
+  e.change = -0.2 * 9.81 * 0.06e-3;
+  e.integrator = 0.2 * 9.81 * 0.1e-3;
+  EXPECT_NEAR(e.relative(), -0.16, 1e-12);
+  EXPECT_NEAR(e.made(), 0.1, 1e-12);
+  // In motion the works count alone.
+  e.integrator.reset();
+  e.change = 0.4;
+  e.absolute = 10;
+  EXPECT_NEAR(e.relative(), 0.04, 1e-12);
+  e.absolute = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(e.relative() <= 0.05);
 }
 
 }  // namespace
