@@ -11,6 +11,7 @@ namespace gambeson::laboratory {
 
 constexpr double kDrapeSupport_m = 0.18;   ///< diameter of the discs that hold the specimen
 constexpr double kDrapeSpecimen_m = 0.30;  ///< its diameter; 0.24 for limp cloth, 0.36 for stiff
+constexpr int kDrapeStarts = 3;            ///< whose mean is the result, as testers take that of several drapes
 
 /// What is left of the specimen in the picture, and what is read off it.
 struct Draped {
@@ -32,9 +33,9 @@ struct Draped {
 /// is lowered: under all of it at once it would take twice as many folds, and keep them. At each weight it sinks in
 /// steps of an implicit Euler method against a drag (K + M/s, s grows while little moves) to a stable equilibrium:
 /// inertia plays no part. So that it knows where to fold, its weight is uneven by 2 % in a fixed pattern until it
-/// hangs, and even from then on. Cloth does not touch itself; `crossings` tells where that would matter. Quadratic
-/// cells take assumed strains; others lock, and the shadow is too large. Throws RunError where it finds
-/// no rest.
-Draped drape(const Fabric& fabric, const Specimen& specimen, double specimen_m = kDrapeSpecimen_m);
+/// hangs, and even from then on; each `start` has the pattern turned against the grain, and may find other folds. Cloth
+/// does not touch itself; `crossings` tells where that would matter. Quadratic cells take assumed strains, and are
+/// narrow beside the support; others lock, and the shadow is too large. Throws RunError where it finds no rest.
+Draped drape(const Fabric& fabric, const Specimen& specimen, double specimen_m = kDrapeSpecimen_m, int start = 0);
 
 }  // namespace gambeson::laboratory

@@ -42,6 +42,7 @@ struct MeasuredTest {
   laboratory::Loop loop;  ///< of cantilevers the overhang: how far it reaches, and how deep it hangs [m]
   std::vector<Reading> readings;
   std::optional<laboratory::Draped> draped = {};  ///< whose outline is the loop: x and y [m]
+  std::vector<laboratory::Draped> starts = {};    ///< by their coefficients; `draped` is the middle one
   std::vector<std::string> notes = {};            ///< said below the readings
 
   std::string title() const;  ///< "KES-FB2 bending, along the weft"

@@ -119,7 +119,12 @@ Json testJson(const MeasuredTest& test) {
            {"picture", test.stem() + ".svg"},
            {"lost_J_per_m2", test.loop.back().lost_J_per_m2},
            {"readings", readings}};
-  if (test.draped) all["self_crossings"] = test.draped->crossings;
+  long crossings = 0;
+  for (const laboratory::Draped& d : test.starts) {
+    crossings = std::max(crossings, d.crossings);
+    all["starts"].push_back({{"coefficient", d.coefficient}, {"nodes", d.nodes}});
+  }
+  if (test.draped) all["self_crossings"] = crossings;
   if (!test.notes.empty()) all["notes"] = test.notes;
   return all;
 }

@@ -67,6 +67,16 @@ TEST(Drape, ARigidDiscStaysAndAStiffOneSinksAsAPlate) {
   EXPECT_EQ(stiff.nodes, 0);
 }
 
+// A start turns what the specimen's weight is uneven by, so that soft cloth takes other folds, and about the same
+// shadow.
+TEST(Drape, StartsTurnThePattern) {
+  useThreads(1);
+  const Draped a = laboratory::drape(evenCloth(2e-5, 0.2), ring(8, 2)),
+               b = laboratory::drape(evenCloth(2e-5, 0.2), ring(8, 2), laboratory::kDrapeSpecimen_m, 1);
+  EXPECT_NE(a.coefficient, b.coefficient);
+  EXPECT_NEAR(a.coefficient, b.coefficient, 0.1);
+}
+
 TEST(Drape, SofterClothFoldsAndHasLessShadow) {
   useThreads(1);
   double before = 1;
@@ -95,6 +105,10 @@ TEST(Drape, TheCardsCoefficientStandsBesideTheSimulatedOne) {
   EXPECT_TRUE(test.readings[0].share);
   EXPECT_GT(test.readings[0].measured, 0.999);
   EXPECT_EQ(*test.readings[1].card, 0);
+  ASSERT_EQ(test.starts.size(), 3u);
+  EXPECT_NEAR(test.readings[0].measured,
+              (test.starts[0].coefficient + test.starts[1].coefficient + test.starts[2].coefficient) / 3, 1e-15);
+  EXPECT_EQ(test.draped->coefficient, test.starts[1].coefficient) << "the middle one";
   EXPECT_EQ(test.loop.size(), test.draped->outline.size() + 1) << "a closed outline";
 }
 
