@@ -110,6 +110,14 @@ std::vector<InputError> unusualOf(const AnyCase& any, const CheckArguments& a) {
   return std::holds_alternative<Case>(any) ? unusualNumbers(schema::caseTable(), entry) : std::vector<InputError>{};
 }
 
+/// What a case was read to say, as its table writes it; null of a cell, which has no fabrics.
+JsonNode writtenOf(const AnyCase& any) {
+  if (const auto* structure = std::get_if<StructureCase>(&any))
+    return schema::writeObject(schema::structureTable(structure->kind), structure);
+  const auto* worn = std::get_if<Case>(&any);
+  return worn ? schema::writeObject(schema::caseTable(), worn) : JsonNode{};
+}
+
 int check(const CheckArguments& a, std::ostream& out) {
   if (a.schema) out << caseSchema();
   if (a.doc) out << caseFields();
@@ -120,6 +128,7 @@ int check(const CheckArguments& a, std::ostream& out) {
   if (a.overrides.empty() && !a.full && checkFile(a.file, out)) return done;
   const AnyCase any = readAnyCase(a.file, a.overrides);
   for (const InputError& unusual : unusualOf(any, a)) sayNote(unusual.what());
+  for (const std::string& assumed : assumedThicknesses(writtenOf(any))) sayNote(assumed);
   checkBuild(any);
   out << (a.full ? std::visit([](const auto& c) { return writeCase(c); }, any)
                  : fmt::format("{}: valid\n", a.file.string()));
@@ -129,9 +138,10 @@ int check(const CheckArguments& a, std::ostream& out) {
 int draft(const DraftArguments& a, std::ostream& out) {
   using Endings = std::vector<std::string>;
   if (a.flat && a.obj) throw InputError({"command line", 0, "--flat"}, "excludes --obj; give only one of them");
-  const std::string ending =
-      checkEnding(a.garment_file, "--output",
-                  a.flat ? Endings{".dxf", ".svg", ".json"} : a.obj ? Endings{".obj"} : Endings{".json", ".obj"});
+  const std::string ending = checkEnding(a.garment_file, "--output",
+                                         a.flat  ? Endings{".dxf", ".svg", ".json"}
+                                         : a.obj ? Endings{".obj"}
+                                                 : Endings{".json", ".obj"});
   const AnyCase any = readAnyCase(a.file, a.overrides);
   const auto* c = std::get_if<Case>(&any);
   if (!c) throw InputError({a.file.string(), 0, ""}, "is no case of worn cloth; garments are made by those that wear");
@@ -414,8 +424,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
              {batch_arguments.options.out, "--out"}}) {
       checkPath(path, option);
       const std::string_view name = option;
-      if (!path.empty() && (name == "CASE" || name == "STUDY" || name == "RESULTS" || name == "CARD" || name == "CELL" ||
-                            name == "FILE"))
+      if (!path.empty() && (name == "CASE" || name == "STUDY" || name == "RESULTS" || name == "CARD" ||
+                            name == "CELL" || name == "FILE"))
         subject = path.string();
     }
     for (const std::filesystem::path& file : batch_arguments.cases) checkPath(file, "CASE");

@@ -248,9 +248,9 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, const Only& only) {
   MadeBodies bodies = makeBodies(c);
   Wardrobe wardrobe = makeGarments(c, only, bodies.human ? &*bodies.human : nullptr);
   auto [s, at_start] = assemble(written, c, only, std::move(bodies), std::move(wardrobe));
-  const std::vector<std::string> unusual =
-      unusualNumbers(schema::caseTable(), schema::writeObject(schema::caseTable(), &written));
-  s->notes.insert(s->notes.begin(), unusual.begin(), unusual.end());
+  const JsonNode node = schema::writeObject(schema::caseTable(), &written);
+  for (const std::vector<std::string>& notes : {assumedThicknesses(node), unusualNumbers(schema::caseTable(), node)})
+    s->notes.insert(s->notes.begin(), notes.begin(), notes.end());
   putOnAtStart(c, only, *s);
   if (isProjected(c)) shrinkBody(c, at_start, *s);
   return std::move(s);
