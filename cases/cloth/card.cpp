@@ -187,6 +187,7 @@ void followCurves(const FabricCard& card, CardFabric& out) {
     out.assumed.push_back("no hysteresis: a law of curves is elastic; 2HB and 2HG are not in it");
   out.fabric.jam_area = 0;
   out.fabric = withCurves(std::move(out.fabric), std::make_shared<const LawFile>(std::move(law)));
+  out.fabric.limit_of_law = {};  // the card states how far it was measured
 }
 
 /// Engineering strain at which the fabric's law has a force per width.
@@ -222,6 +223,7 @@ CardFabric fabricOf(const FabricCard& card, const IsotropicHysteresisBending* fi
   FabricCase& f = out.fabric;
   f.name = card.name;
   f.thickness_m = card.thickness_m;
+  f.thickness_assumed = card.thickness_assumed;
   if (card.thickness_assumed)
     out.assumed.push_back(fmt::format("thickness {} mm: the card has none; the weight over {} kg/m^3",
                                       number(1000 * card.thickness_m), number(kCardDensity_kg_per_m3)));

@@ -2,6 +2,7 @@
 /// What cloth is made of, as a case has it.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -32,6 +33,8 @@ struct FabricCase : Fabric {
   std::optional<double> limit_strain_weft, limit_strain_warp;  ///< Green-Lagrange strains; absent: those of the law
   std::filesystem::path card;                                  ///< that it is of (cases/cloth/card.hpp); empty: none
   std::optional<EnergySource> energy_source;                   ///< that `energy` is of
+  std::array<bool, 2> limit_of_law{};  ///< of weft and warp: the limit is the law's range, which nobody stated
+  bool thickness_assumed = false;      ///< nobody measured it: it is the weight over a usual density
   bool operator==(const FabricCase&) const = default;
 };
 

@@ -211,6 +211,9 @@ Object fabricTable() {
           .defaultsTo(
               "required, or card; beside surface_density and stiffness, surface_density over 400 kg/m^3: no force "
               "per width depends on it")
+          .flag("thickness_assumed", &F::thickness_assumed,
+                "nobody measured the thickness: finished runs say so of what was taken from the weight, and the "
+                "reports note it")
           .number("density", &F::density_kg_per_m3, "kg/m^3", aboveTo(0, 3e4), "mass per volume")
           .in("density")
           .defaultsTo("required, or surface_density, or card")
@@ -269,6 +272,10 @@ Object fabricTable() {
   for (Field& f : table.fields)
     if (f.key == "poisson" || f.key == "jam_area" || f.key == "bending")
       f.write = [write = f.write](const void* in) { return static_cast<const F*>(in)->law ? std::nullopt : write(in); };
+    else if (f.key == "thickness_assumed")
+      f.write = [write = f.write](const void* in) {
+        return static_cast<const F*>(in)->thickness_assumed ? write(in) : std::nullopt;
+      };
   return table;
 }
 
@@ -310,6 +317,7 @@ FabricInput inModuli(const Entry& entry, FabricInput in) {
     if (!in.surface_density_kg_per_m2)
       entry.failAt("thickness", "is required, or surface_density, from which it is taken where no modulus needs it");
     in.thickness_m = *in.surface_density_kg_per_m2 / kCardDensity_kg_per_m3;
+    in.thickness_assumed = true;
   }
   return in;
 }
@@ -443,10 +451,12 @@ FabricCase resolveFabric(const Entry& entry, const FabricInput& given) {
   FabricCase f = cardOf(entry, in);
   const bool of_card = !f.card.empty();
   if (!in.name.empty()) f.name = in.name;
-  if (in.thickness_m > 0)
+  if (in.thickness_m > 0) {
     f.thickness_m = in.thickness_m;
-  else if (!of_card)
+    f.thickness_assumed = in.thickness_assumed;
+  } else if (!of_card) {
     entry.failAt("thickness", "is required: thickness");
+  }
   toModuli(in, f.thickness_m);
   resolveDensity(entry, in, f);
   if (in.law) {
@@ -481,9 +491,10 @@ FabricInput restoreFabric(const FabricCase& f) {
   in.name = f.name;
   in.thickness_m = f.thickness_m;
   in.density_kg_per_m3 = f.density_kg_per_m3;
+  in.thickness_assumed = f.thickness_assumed;
   if (f.energy_source) {
-    in.limit_strain_weft = f.limit_strain_weft;
-    in.limit_strain_warp = f.limit_strain_warp;
+    if (!f.limit_of_law[0]) in.limit_strain_weft = f.limit_strain_weft;
+    if (!f.limit_of_law[1]) in.limit_strain_warp = f.limit_strain_warp;
     in.law = restoreLaw(f);
     return in;
   }

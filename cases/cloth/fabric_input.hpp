@@ -44,6 +44,7 @@ struct FabricInput {
   std::filesystem::path card;
   std::string name;
   double thickness_m = 0;
+  bool thickness_assumed = false;
   std::optional<double> density_kg_per_m3, surface_density_kg_per_m2;
   std::optional<double> young_Pa, young_weft_Pa, young_warp_Pa, shear_Pa;
   /// In their place, times the thickness: of sheets that have none. Only read; moduli are written.

@@ -15,12 +15,21 @@
 #include "core/material/table/law_table.hpp"
 
 namespace gambeson {
+namespace {
+
+/// What nobody said of how far the fabric may be stretched, its law's range says.
+void limitByLaw(FabricCase& fabric, double weft, double warp) {
+  fabric.limit_of_law = {!fabric.limit_strain_weft, !fabric.limit_strain_warp};
+  if (!fabric.limit_strain_weft) fabric.limit_strain_weft = weft;
+  if (!fabric.limit_strain_warp) fabric.limit_strain_warp = warp;
+}
+
+}  // namespace
 
 FabricCase withCurves(FabricCase fabric, std::shared_ptr<const LawFile> law) {
   const auto energy = std::make_shared<const CurveEnergy>(*law->curves);
   static_cast<Fabric&>(fabric) = withEnergy(std::move(fabric), energy);
-  if (!fabric.limit_strain_weft) fabric.limit_strain_weft = energy->curve(0).end();
-  if (!fabric.limit_strain_warp) fabric.limit_strain_warp = energy->curve(1).end();
+  limitByLaw(fabric, energy->curve(0).end(), energy->curve(1).end());
   fabric.energy_source = EnergySource{{}, std::move(law)};
   return fabric;
 }
@@ -53,8 +62,7 @@ void resolveTable(const Entry& law, const LawInput& in, FabricCase& fabric) {
   const auto energy = std::make_shared<const LawTable>(content->table);
   takeEnergy(law, "table", energy, fabric);
   const auto range = energy->range();
-  if (!fabric.limit_strain_weft) fabric.limit_strain_weft = range[0][1];
-  if (!fabric.limit_strain_warp) fabric.limit_strain_warp = range[1][1];
+  limitByLaw(fabric, range[0][1], range[1][1]);
   fabric.energy_source = EnergySource{in.table, content};
 }
 

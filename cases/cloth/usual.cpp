@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/ticks.hpp"
 #include "cases/cloth/card.hpp"
 #include "cases/input/typed.hpp"
 
@@ -89,6 +90,24 @@ std::vector<std::string> unusualNumbers(const Object& object, const JsonNode& wr
   for (const InputError& w : unusualNumbers(object, Entry{written, "", none}))
     texts.push_back(w.where().key + ": " + w.reason());
   return texts;
+}
+
+std::vector<std::string> assumedThicknesses(const JsonNode& written) {
+  const std::string none;
+  std::vector<std::string> notes;
+  const auto look = [&](const auto& self, const Entry& entry) -> void {
+    const JsonNode *assumed = entry.node.find("thickness_assumed"), *thickness = entry.node.find("thickness");
+    if (assumed && assumed->boolean && thickness)
+      notes.push_back(fmt::format(
+          "{}: {} mm is assumed, the weight over {} kg/m^3, since nobody gave one; no force per width depends on it, "
+          "but stress in Pa does",
+          entry.member(*thickness).path, formatNumber(1000 * thickness->number, 3),
+          formatNumber(kCardDensity_kg_per_m3)));
+    for (std::size_t i = 0; i < entry.node.children.size(); ++i)
+      self(self, entry.node.type == JsonNode::Type::list ? entry.item(i) : entry.member(entry.node.children[i]));
+  };
+  look(look, Entry{written, "", none});
+  return notes;
 }
 
 std::vector<InputError> unusualOfCard(const std::filesystem::path& card) {

@@ -18,4 +18,7 @@ std::vector<std::string> unusualNumbers(const schema::Object& object, const Json
 /// The same of a card that was read without errors.
 std::vector<InputError> unusualOfCard(const std::filesystem::path& card);
 
+/// A note for each fabric of a case (as its table writes it) whose thickness nobody gave.
+std::vector<std::string> assumedThicknesses(const JsonNode& written);
+
 }  // namespace gambeson

@@ -92,12 +92,12 @@ int fabricCommand(FabricArguments& a, std::ostream& out) {
 /// Builds what a run of the case starts from: a case that is valid can be run. Returns what there is to say of it.
 std::vector<std::string> checkBuild(const AnyCase& any) {
   useThreads(0);
-  if (const auto* structure = std::get_if<StructureCase>(&any))
+  if (const auto* structure = std::get_if<StructureCase>(&any)) {
     checkStructure(*structure);
-  else if (const auto* cell = std::get_if<CellCase>(&any))
-    checkCell(*cell);
-  else
-    return checkRun(std::get<Case>(any));
+    return assumedThicknesses(schema::writeObject(schema::structureTable(structure->kind), structure));
+  }
+  if (const auto* worn = std::get_if<Case>(&any)) return checkRun(*worn);
+  checkCell(std::get<CellCase>(any));
   return {};
 }
 

@@ -43,10 +43,11 @@ struct LaminateMaterial {
 struct MaterialCase {
   std::variant<IsotropicMaterial, OrthotropicMaterial, LaminateMaterial, Fabric> law;
   bool tension_field = false;
-  std::filesystem::path card;                 ///< of a fabric; empty: none
+  std::filesystem::path card;  ///< of a fabric; empty: none
   /// Of a fabric, Green-Lagrange strains that it may reach; absent: not said.
   std::optional<double> limit_strain_weft, limit_strain_warp;
   std::optional<EnergySource> energy_source;  ///< that a fabric's law is of
+  bool thickness_assumed = false;             ///< FabricCase
 };
 /// As the shell takes it; a density that is not given is 0.
 Fabric fabricOf(const MaterialCase& material);

@@ -112,16 +112,16 @@ Object materialTable() {
             m.law = static_cast<const Fabric&>(f);
             m.card = f.card;
             m.energy_source = f.energy_source;
-            // The range of a table is no limit that anyone stated: the check of the law's range is about that.
-            if (f.energy_source && f.card.empty() && !in.limit_strain && !in.limit_strain_weft && !in.limit_strain_warp)
-              return;
-            m.limit_strain_weft = f.limit_strain_weft;
-            m.limit_strain_warp = f.limit_strain_warp;
+            m.thickness_assumed = f.thickness_assumed;
+            // The range of a law is no limit that anyone stated: the check of the law's range is about that.
+            if (!f.limit_of_law[0]) m.limit_strain_weft = f.limit_strain_weft;
+            if (!f.limit_of_law[1]) m.limit_strain_warp = f.limit_strain_warp;
           },
           [table = fabric.object](const M& m) -> std::optional<JsonNode> {
             const Fabric* f = std::get_if<Fabric>(&m.law);
             if (!f) return std::nullopt;
-            const FabricInput in = restoreFabric(FabricCase{*f, m.limit_strain_weft, m.limit_strain_warp, m.card, m.energy_source});
+            const FabricInput in = restoreFabric(FabricCase{
+                *f, m.limit_strain_weft, m.limit_strain_warp, m.card, m.energy_source, {}, m.thickness_assumed});
             return writeObject(*table, &in);
           })
       .in("law")

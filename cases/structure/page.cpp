@@ -199,7 +199,9 @@ std::string contactInWords(const StructureCase& c) {
 
 std::vector<std::string> assumptionsOf(const StructureCase& c) {
   const schema::Object& table = schema::structureTable(c.kind);
-  std::vector<std::string> a = unusualNumbers(table, schema::writeObject(table, &c));
+  const JsonNode node = schema::writeObject(table, &c);
+  std::vector<std::string> a = unusualNumbers(table, node);
+  for (std::string& note : assumedThicknesses(node)) a.push_back(std::move(note));
   a.push_back(inWords(c.sheet.cloth));
   if (std::string own = ownLawsInWords(c.sheet.cloth); !own.empty()) a.push_back(std::move(own));
   const bool linear = c.kind == StructureKind::statics && c.statics.linear;

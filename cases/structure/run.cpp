@@ -414,7 +414,9 @@ int runStructure(const StructureCase& c, const RunOptions& options) {
   const StopMessage stopped("stopped by a signal" + kept +
                             "; a structure starts from the beginning when it is run again");
   const schema::Object& table = schema::structureTable(c.kind);
-  for (const std::string& unusual : unusualNumbers(table, schema::writeObject(table, &c))) sayNote(unusual);
+  const JsonNode node = schema::writeObject(table, &c);
+  for (const std::string& unusual : unusualNumbers(table, node)) sayNote(unusual);
+  for (const std::string& assumed : assumedThicknesses(node)) sayNote(assumed);
   Run run(c, options);
   if (c.kind == StructureKind::statics)
     runStatic(c, run);

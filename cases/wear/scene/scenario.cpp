@@ -250,9 +250,10 @@ std::unique_ptr<Scenario> buildUnnamed(const Case& written, const Only& only) {
   std::vector<std::string> fit;
   Wardrobe wardrobe = makeGarments(c, only, bodies.human ? &*bodies.human : nullptr, fit);
   auto [s, at_start] = assemble(written, c, only, std::move(bodies), std::move(wardrobe));
-  const std::vector<std::string> unusual =
-      unusualNumbers(schema::caseTable(), schema::writeObject(schema::caseTable(), &written));
-  s->notes.insert(s->notes.begin(), unusual.begin(), unusual.end());
+  // Unusual numbers come first, then what was assumed.
+  const JsonNode node = schema::writeObject(schema::caseTable(), &written);
+  for (const std::vector<std::string>& notes : {assumedThicknesses(node), unusualNumbers(schema::caseTable(), node)})
+    s->notes.insert(s->notes.begin(), notes.begin(), notes.end());
   s->notes.insert(s->notes.end(), fit.begin(), fit.end());
   putOnAtStart(c, only, *s);
   if (isProjected(c)) shrinkBody(c, at_start, *s);

@@ -111,6 +111,8 @@ TEST(CardTerms, AFabricInNewtonsPerMetreNeedsNoThickness) {
                                         bending + "}");
   EXPECT_NEAR(thin.thickness_m, 0.32 / 400, 1e-15);
   EXPECT_EQ(thick.thickness_m, 2e-3);
+  EXPECT_TRUE(thin.thickness_assumed);
+  EXPECT_FALSE(thick.thickness_assumed);
   for (const FabricCase* f : {&thin, &thick}) {
     EXPECT_NEAR(f->young_weft_Pa * f->thickness_m, 8000, 1e-9);
     EXPECT_NEAR(f->young_warp_Pa * f->thickness_m, 10000, 1e-9);

@@ -44,7 +44,7 @@ const Keys carried{
     {"Garment file", "path"},
     {"Friction", "kinetic"},
     {"Fabric",
-     "card name thickness density surface_density young young_weft young_warp shear poisson "
+     "card name thickness thickness_assumed density surface_density young young_weft young_warp shear poisson "
      "stiffness stiffness_weft stiffness_warp shear_stiffness "
      "jam_area limit_strain limit_strain_weft limit_strain_warp bending"},
     {"Bending",

@@ -52,6 +52,10 @@ const std::string cloth = R"({"name": "cloth",
              "bending": {"law": "linear", "rigidity": "1e-4 N m"}},
   "time": {"duration": 0.1}})";
 
+const std::string curves = R"("law": {"curves": {"weft": [["5 %", "15 N/m"], ["20 %", "80 N/m"]],
+                               "warp": [["5 %", "15 N/m"], ["20 %", "80 N/m"]], "shear": "100 N/m",
+                               "rigidity_weft": 1e-4, "rigidity_warp": 1e-4}})";
+
 std::string with(std::string text, const std::string& from, const std::string& to) {
   return text.replace(text.find(from), from.size(), to);
 }
@@ -97,8 +101,10 @@ TEST(Fit, PastTheLimitOfItsCardAGarmentFailsACheckByName) {
     "fabric": {"card": "knit.card.json"}, "time": {"duration": 0.1}})json";
   const std::string stated =
       with(with(with(cloth, "ANGLE", "0"), "WEFT", "8"), "\"fabric\": {", "\"fabric\": {\"name\": \"Felt\", ");
-  for (const auto& [text, name, limit] :
-       {std::tuple(of_card, "Soft knit (card knit.card.json)", 8.32), std::tuple(stated, "Felt", 8.)})
+  const std::string of_law = with(stated, "\"young\": \"1 MPa\", \"poisson\": 0.3,", ""),
+                    of_curves = with(of_law, R"("bending": {"law": "linear", "rigidity": "1e-4 N m"})", curves);
+  for (const auto& [text, name, limit] : {std::tuple(of_card, "Soft knit (card knit.card.json)", 8.32),
+                                          std::tuple(stated, "Felt", 8.), std::tuple(of_curves, "Felt", 8.)})
     for (const double stretch : {1.05, 1.1}) {
       SCOPED_TRACE(testing::Message() << name << " " << stretch);
       const auto s = buildScenario(readCase(folder.write("cloth.json", text)));
@@ -121,6 +127,24 @@ TEST(Fit, PastTheLimitOfItsCardAGarmentFailsACheckByName) {
       EXPECT_NE(said.find("It may not come back, or tear"), std::string::npos) << said;
       EXPECT_NE(checkWords(found->name, found->value, found->limit, found->unit).wrong.find(name), std::string::npos);
     }
+}
+
+/// Curves end at a Green-Lagrange strain of 22 %: that the law says no more is no limit that has a name.
+TEST(Fit, TheRangeOfALawIsNoLimitOfTheFabric) {
+  const Folder folder;
+  std::string text = with(with(cloth, "ANGLE", "0"), R"("limit_strain_weft": "WEFT %",)", "");
+  text = with(with(text, "\"young\": \"1 MPa\", \"poisson\": 0.3,", ""),
+              R"("bending": {"law": "linear", "rigidity": "1e-4 N m"})", curves);
+  const auto s = buildScenario(readCase(folder.write("cloth.json", text)));
+  record(*s, folder.path() / "out", {0, 0.02}, [](double, const Vec3& p) { return Vec3{1.3 * p.x, p.y, p.z}; });
+  Measured m;
+  m.regions = regionsOf(*s);
+  const RecordingReader recording(folder.path() / "out");
+  measureFrames(recording, m);
+  measureStretch(*s, recording, m);
+  ASSERT_FALSE(m.stretch.empty());
+  EXPECT_GT(m.stretch[0].largest, m.stretch[0].limit);
+  EXPECT_TRUE(stretchChecks(s->definition, m.stretch).empty());
 }
 
 TEST(Fit, WithoutALimitTheLawsOwnRangeHolds) {
