@@ -283,7 +283,7 @@ TEST(Dart, SidesShareNoPointWhereCutsMeetNearATip) {
     };
     int shared = 0;
     for (std::size_t c = 0; c < owner.size(); ++c) shared += owner[c] != static_cast<int>(c);
-    EXPECT_GT(shared, cell < 0.025 ? 20 : 2) << cell;  // away from the tips
+    EXPECT_GT(shared, cell < 0.015 ? 20 : 2) << cell;  // away from the tips
     for (std::size_t k = 0; k < p.seams.size(); ++k) {
       const SewnLength a(g, g.sewn_seams[k].a, ""), b(g, g.sewn_seams[k].b, "");
       for (int i = 0; i <= 40; ++i) {
