@@ -13,7 +13,8 @@ namespace gambeson {
 /// x = W q. Rows of W sum to 1 and W T has full column rank. `area_m2` is consistent: Wᵀ a = ∫ N dA over the free
 /// points, so that a uniform pressure p is the impulse a p dt on the samples: the minimum-norm solution; with trimmed
 /// patches, where that turns negative beside slivers, the positive one nearest to the areas g that the triangles give
-/// to the samples (least sum a log(a/g) - a).
+/// to the samples (least sum a log(a/g) - a); where there is none (strips narrower than a cell), samples are added in
+/// the middles of triangles until there is.
 struct Surface {
   SparseRows W;   ///< samples x control points
   SparseRows WT;  ///< samples x free points, W T

@@ -122,6 +122,26 @@ def main():
         check(not failed, f"checks of the tube with a dart: {failed}")
         check(numbers["collisions"]["most_intersections"] == 0, f"the dart crosses: {numbers['collisions']}")
 
+        # Two darts of 3 mm on 5 cm, with a strip of 9 mm between them, and a band from 4 to 14 mm: all less than a cell wide.
+        narrow = pattern(0.53 * girth)
+        top = [(half, 0.12), (0.006, 0.12), (0.0045, 0.07), (0.003, 0.12), (-0.006, 0.12), (-0.0075, 0.07), (-0.009, 0.12),
+               (-half, 0.12)]
+        narrow["panels"][0]["outline"] = [{"start": [x, y]} for x, y in [(-half, 0), (half, 0)] + top]
+        narrow["panels"].append({
+            "name": "band", "outline": [{"start": [x, y]} for x, y in ((-half, 0), (half, 0), (half, 0.004), (-half, 0.014))],
+            "placement": {"origin": [-0.14, 0, 0.07], "along_x": [0, -1, 0], "along_y": [0, 0, 1]}})
+        narrow["seams"] = [{"name": "left", "a": ["front.1"], "b": ["back.3 reversed"]},
+                           {"name": "right", "a": ["back.1"], "b": ["front.9 reversed"]},
+                           {"name": "dart", "a": ["front.3"], "b": ["front.4 reversed"], "use": "dart"},
+                           {"name": "other dart", "a": ["front.6"], "b": ["front.7 reversed"], "use": "dart"},
+                           {"name": "band", "a": ["back.2"], "b": ["band.0 reversed"]}]
+        done, place = worn(folder, "narrow", narrow)
+        check(done.returncode == 0, f"the tube with narrow darts gave {done.returncode}: {done.stderr}")
+        numbers = summary(place / "out")
+        failed = [c for c in numbers["audit"] if not c["holds"]]
+        check(not failed, f"checks of the tube with narrow darts: {failed}")
+        check(numbers["collisions"]["most_intersections"] == 0, f"narrow darts cross: {numbers['collisions']}")
+
         # A side that is worn open and buttoned twice.
         opened = pattern(0.53 * girth)
         opened["seams"][0] |= {"use": "opening", "open": True, "buttons": 2}

@@ -159,14 +159,25 @@ void fields(A& a, T& s) {
   auto& [edge_a, edge_b, kind, stiffness, factor] = s;
   a("a", edge_a)("b", edge_b)("kind", kind)("stiffness", stiffness)("factor", factor);
 }
-/// Fabrics and fields are those of the case; sewn seams hold in steps alone, which are made from the case.
+template <class A, Of<SewnPart> T>
+void fields(A& a, T& p) {
+  auto& [patch, curve, from, to] = p;
+  a("patch", patch)("curve", curve)("from", from)("to", to);
+}
+template <class A, Of<SewnSeam> T>
+void fields(A& a, T& s) {
+  auto& [edge_a, edge_b, hold, stiffness, rest_angle, factor, rows, name] = s;
+  a("a", edge_a)("b", edge_b)("hold", hold)("stiffness", stiffness)("rest_angle", rest_angle)("factor", factor);
+  a("rows_per_cell", rows)("name", name);
+}
+/// Fabrics and fields are those of the case. Sewn seams tell which points patches share, and so where samples are.
 template <class A, Of<Garment> T>
 void fields(A& a, T& g) {
   auto& [name, patches, seams, weft, trims, fabric, others, of_case, weak_seams, garment_of_patch, patch_names, edges,
          placed, sewn_seams] = g;
-  static_cast<void>(sewn_seams);
   a("name", name)("patches", patches)("seams", seams)("weft", weft)("trims", trims)("weak_seams", weak_seams);
   a("layer", garment_of_patch)("patch_names", patch_names)("edges", edges)("placed", placed);
+  a("sewn_seams", sewn_seams);
 }
 template <class A, Of<MeshLine> T>
 void fields(A& a, T& l) {

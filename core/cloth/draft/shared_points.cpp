@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <set>
 
 namespace gambeson {
 namespace {
@@ -51,28 +53,43 @@ bool reach(const Lines& lines, const Box& box) {
   return std::any_of(lines.begin(), lines.end(), [&](const auto& line) { return reaches(line, box); });
 }
 
-/// The sides of the seams that end, both sides of each, at an end of the cut.
-Lines sidesAt(const Garment& g, const SewnSeam& cut) {
-  const SewnPart& way = cut.a[0];
-  const double size = std::hypot(way.curve.points.back().x - way.curve.points.front().x,
-                                 way.curve.points.back().y - way.curve.points.front().y);
-  Lines out;
+/// A seam whose sides meet at an end of a cut: a slit in a sheet, as far as its patches are of the sheet.
+struct Slit {
+  std::vector<std::array<int, 2>> patches;  ///< that it parts: of a part of either side
+  Lines sides;
+};
+
+bool isSlit(const Garment& g, const SewnSeam& seam) {
+  if (isCut(seam) || seam.hold == SeamHold::open || seam.a.empty() || seam.b.empty()) return false;
+  const auto meetsAt = [&](const SewnSeam& cut, double t) {
+    const NurbsCurve& way = cut.a[0].curve;
+    const double size =
+        std::hypot(way.points.back().x - way.points.front().x, way.points.back().y - way.points.front().y);
+    const Vec2 q = curvePoint(way, t).point;
+    const auto isThere = [&](const SewnEdge& edge, bool end) {
+      const SewnPart& part = end ? edge.back() : edge.front();
+      if (part.patch != cut.a[0].patch && part.patch != cut.b[0].patch) return false;
+      const Vec2 p = curvePoint(part.curve, end ? part.to : part.from).point;
+      return std::hypot(p.x - q.x, p.y - q.y) <= 1e-7 * size;
+    };
+    return (isThere(seam.a, false) && isThere(seam.b, false)) || (isThere(seam.a, true) && isThere(seam.b, true));
+  };
+  return std::any_of(g.sewn_seams.begin(), g.sewn_seams.end(), [&](const SewnSeam& cut) {
+    return isCut(cut) && (meetsAt(cut, cut.a[0].from) || meetsAt(cut, cut.a[0].to));
+  });
+}
+
+std::vector<Slit> slitsOf(const Garment& g) {
+  std::vector<Slit> out;
   for (const SewnSeam& seam : g.sewn_seams) {
-    if (&seam == &cut || isCut(seam) || seam.hold == SeamHold::open || seam.a.empty() || seam.b.empty()) continue;
-    bool meets = false;
-    for (const double t : {way.from, way.to})
-      for (const bool end : {false, true}) {
-        const auto isThere = [&](const SewnEdge& edge) {
-          const SewnPart& part = end ? edge.back() : edge.front();
-          if (part.patch != way.patch && part.patch != cut.b[0].patch) return false;
-          const Vec2 p = curvePoint(part.curve, end ? part.to : part.from).point, q = curvePoint(way.curve, t).point;
-          return std::hypot(p.x - q.x, p.y - q.y) <= 1e-7 * size;
-        };
-        meets = meets || (isThere(seam.a) && isThere(seam.b));
-      }
-    if (!meets) continue;
+    if (!isSlit(g, seam)) continue;
+    Slit slit;
+    for (const SewnPart& a : seam.a)
+      for (const SewnPart& b : seam.b)
+        if (a.patch != b.patch) slit.patches.push_back({a.patch, b.patch});
     for (const SewnEdge* edge : {&seam.a, &seam.b})
-      for (const SewnPart& part : *edge) addLines(part, out);
+      for (const SewnPart& part : *edge) addLines(part, slit.sides);
+    out.push_back(std::move(slit));
   }
   return out;
 }
@@ -88,6 +105,49 @@ std::vector<int> sameFunctions(const KnotVector& a, const KnotVector& b) {
   return out;
 }
 
+/// A function that two patches share across a cut between them, by its number among all control points.
+struct Link {
+  std::array<int, 2> point, patch;
+  Box box;  ///< within which it is not zero
+};
+
+/// Those that reach a cut, and no slit between its two patches.
+std::vector<Link> linksOf(const Garment& g, const std::vector<int>& first, const std::vector<Slit>& slits) {
+  std::vector<Link> out;
+  const int patches = static_cast<int>(g.patches.size());
+  for (const SewnSeam& cut : g.sewn_seams) {
+    if (!isCut(cut)) continue;
+    const int left = cut.a[0].patch, right = cut.b[0].patch;
+    if (std::min(left, right) < 0 || std::max(left, right) >= patches) continue;  // the rows refuse it
+    const NurbsPatch &a = g.patches[static_cast<std::size_t>(left)], &b = g.patches[static_cast<std::size_t>(right)];
+    const std::vector<int> us = sameFunctions(a.u, b.u), vs = sameFunctions(a.v, b.v);
+    Lines way, sides;
+    addLines(cut.a[0], way);
+    for (const Slit& slit : slits)
+      for (const auto& [p, q] : slit.patches)
+        if (std::minmax(p, q) == std::minmax(left, right)) {
+          sides.insert(sides.end(), slit.sides.begin(), slit.sides.end());
+          break;
+        }
+    for (int j = 0; j < a.v.count(); ++j)
+      for (int i = 0; i < a.u.count(); ++i) {
+        const int k = us[static_cast<std::size_t>(i)], l = vs[static_cast<std::size_t>(j)];
+        if (k < 0 || l < 0) continue;
+        const auto at = [](const KnotVector& knots, int n) { return knots.knots[static_cast<std::size_t>(n)]; };
+        const Box box{{at(a.u, i), at(a.v, j)}, {at(a.u, i + a.u.degree + 1), at(a.v, j + a.v.degree + 1)}};
+        if (!reach(way, box) || reach(sides, box)) continue;
+        const auto of_a = static_cast<std::size_t>(a.index(i, j)), of_b = static_cast<std::size_t>(b.index(k, l));
+        const Vec3 &x = a.points[of_a], &y = b.points[of_b];
+        if (!(norm(x - y) <= 1e-9 * (1e-3 + norm(x))) || a.weights[of_a] != b.weights[of_b]) continue;
+        out.push_back({{first[static_cast<std::size_t>(left)] + a.index(i, j),
+                        first[static_cast<std::size_t>(right)] + b.index(k, l)},
+                       {left, right},
+                       box});
+      }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<int> sharedOwners(const Garment& g) {
@@ -99,31 +159,32 @@ std::vector<int> sharedOwners(const Garment& g) {
     while (owner[static_cast<std::size_t>(i)] != i) i = owner[static_cast<std::size_t>(i)];
     return i;
   };
-  const int patches = static_cast<int>(g.patches.size());
-  for (const SewnSeam& cut : g.sewn_seams) {
-    if (!isCut(cut)) continue;
-    const int left = cut.a[0].patch, right = cut.b[0].patch;
-    if (std::min(left, right) < 0 || std::max(left, right) >= patches) continue;  // the rows refuse it
-    const NurbsPatch &a = g.patches[static_cast<std::size_t>(left)], &b = g.patches[static_cast<std::size_t>(right)];
-    const std::vector<int> us = sameFunctions(a.u, b.u), vs = sameFunctions(a.v, b.v);
-    const Lines sides = sidesAt(g, cut);
-    Lines way;
-    addLines(cut.a[0], way);
-    for (int j = 0; j < a.v.count(); ++j)
-      for (int i = 0; i < a.u.count(); ++i) {
-        const int k = us[static_cast<std::size_t>(i)], l = vs[static_cast<std::size_t>(j)];
-        if (k < 0 || l < 0) continue;
-        const auto at = [](const KnotVector& knots, int n) { return knots.knots[static_cast<std::size_t>(n)]; };
-        const Box box{{at(a.u, i), at(a.v, j)}, {at(a.u, i + a.u.degree + 1), at(a.v, j + a.v.degree + 1)}};
-        if (!reach(way, box) || reach(sides, box)) continue;
-        const auto of_a = static_cast<std::size_t>(a.index(i, j)), of_b = static_cast<std::size_t>(b.index(k, l));
-        const Vec3 &x = a.points[of_a], &y = b.points[of_b];
-        if (!(norm(x - y) <= 1e-9 * (1e-3 + norm(x))) || a.weights[of_a] != b.weights[of_b]) continue;
-        const int p = find(first[static_cast<std::size_t>(left)] + a.index(i, j)),
-                  q = find(first[static_cast<std::size_t>(right)] + b.index(k, l));
-        owner[static_cast<std::size_t>(std::max(p, q))] = std::min(p, q);
-      }
+  const auto join = [&](const Link& link) {
+    const int p = find(link.point[0]), q = find(link.point[1]);
+    owner[static_cast<std::size_t>(std::max(p, q))] = std::min(p, q);
+  };
+  const std::vector<Slit> slits = slitsOf(g);
+  const std::vector<Link> links = linksOf(g, first, slits);
+  for (const Link& link : links) join(link);
+  // The patches of each shared function.
+  std::map<int, std::pair<Box, std::set<int>>> sheets;
+  for (const Link& link : links) {
+    auto& sheet = sheets[find(link.point[0])];
+    sheet.first = link.box;
+    sheet.second.insert(link.patch.begin(), link.patch.end());
   }
+  std::set<int> slit;
+  for (const auto& [root, sheet] : sheets)
+    for (const Slit& s : slits)
+      if (std::any_of(s.patches.begin(), s.patches.end(),
+                      [&](const auto& p) { return sheet.second.contains(p[0]) && sheet.second.contains(p[1]); }) &&
+          reach(s.sides, sheet.first))
+        slit.insert(root);
+  std::vector<char> kept;
+  for (const Link& link : links) kept.push_back(!slit.contains(find(link.point[0])));
+  std::iota(owner.begin(), owner.end(), 0);
+  for (std::size_t k = 0; k < links.size(); ++k)
+    if (kept[k]) join(links[k]);
   for (int i = 0; i < first.back(); ++i) owner[static_cast<std::size_t>(i)] = find(i);
   return owner;
 }

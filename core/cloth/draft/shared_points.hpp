@@ -5,7 +5,8 @@
 /// tryon/pattern/flat/panel_pieces.hpp). Where the knots of both patches agree they have the same functions. Of those
 /// that reach across the cut both patches share the control points, and the sheet goes on there as if it were not cut;
 /// but where both sides of another seam meet at the cut's end, the sheet is slit: what reaches these sides stays apart,
-/// or it would hold them together, and there the cut is sewn as seams are.
+/// or it would hold them together, and there the cut is sewn as seams are. So does what would join them by way of a
+/// third patch, where a cut ends on another near a tip.
 
 #include <vector>
 

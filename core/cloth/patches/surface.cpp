@@ -1,14 +1,15 @@
 #include "core/cloth/patches/surface.hpp"
-#include "core/cloth/draft/areas.hpp"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 
+#include "core/cloth/draft/areas.hpp"
 #include "core/cloth/draft/cells.hpp"
 #include "core/cloth/draft/grid_lines.hpp"
+#include "core/cloth/patches/sample_areas.hpp"
 #include "core/cloth/patches/sewn_twins.hpp"
 #include "core/error.hpp"
 #include "core/nurbs/trim_mesh.hpp"
@@ -25,103 +26,75 @@ std::array<bool, 4> joinedSides(const Garment& garment, int patch) {
   return joined;
 }
 
-using Matrix = Eigen::SparseMatrix<double>;
-
-Matrix matrixOf(const SparseRows& WT) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int r = 0; r < WT.rows(); ++r)
-    for (int k = WT.offsets[r]; k < WT.offsets[r + 1]; ++k) entries.emplace_back(r, WT.columns[k], WT.values[k]);
-  Matrix W(WT.rows(), WT.column_count);
-  W.setFromTriplets(entries.begin(), entries.end());
-  return W;
-}
-
-/// The smallest a with WTᵀ a = A.
-std::vector<double> consistentAreas(const SparseRows& WT, const std::vector<double>& free_area) {
-  const Matrix W = matrixOf(WT);
-  const Matrix gram = W.transpose() * W;
-  Eigen::SimplicialLDLT<Matrix> factor(gram);
-  if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 1e-9 * factor.vectorD().maxCoeff()))
-    throw InputError({"", 0, "sampling"},
-                     "the surface samples do not see every control point; use more samples per cell");
-  const Eigen::VectorXd A = Eigen::Map<const Eigen::VectorXd>(free_area.data(), free_area.size());
-  Eigen::VectorXd y = factor.solve(A);
-  y += factor.solve(A - gram * y);  // one refinement: the identity W^T a = A is used as exact
-  const Eigen::VectorXd a = W * y;
-  return {a.data(), a.data() + a.size()};
-}
-
-/// The a with WTᵀ a = A that is nearest to g > 0 in the sense of least sum a log(a/g) - a, always positive:
-/// a = g exp(WT y), with y from Newton on the convex dual sum g exp(WT y) - A y. Its first step is the minimum of
-/// sum (a - g)^2 / g.
-std::vector<double> positiveAreas(const SparseRows& WT, const std::vector<double>& free_area,
-                                  const Eigen::VectorXd& g) {
-  const Matrix W = matrixOf(WT);
-  const Eigen::VectorXd A = Eigen::Map<const Eigen::VectorXd>(free_area.data(), free_area.size());
-  Eigen::VectorXd a = g;
-  Eigen::SimplicialLDLT<Matrix> factor;
-  const double small = 1e-14 * A.maxCoeff();
-  for (int k = 0; k < 100; ++k) {
-    const Eigen::VectorXd left = A - W.transpose() * a;
-    if (left.cwiseAbs().maxCoeff() <= small) return {a.data(), a.data() + a.size()};
-    const Matrix hessian = W.transpose() * a.asDiagonal() * W;
-    if (k == 0) factor.analyzePattern(hessian);
-    factor.factorize(hessian);
-    if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 1e-12 * factor.vectorD().maxCoeff()))
-      throw InputError({"", 0, "sampling"},
-                       "the surface samples do not see every control point; use more samples per cell");
-    const Eigen::VectorXd step = factor.solve(left), move = W * step;
-    // No area changes more than e-fold in a step; then halve until the dual does not rise.
-    double scale = std::min(1.0, 1 / std::max(1e-300, move.cwiseAbs().maxCoeff()));
-    const double slope = left.dot(step);
-    for (int halvings = 0;; ++halvings, scale *= 0.5) {
-      const Eigen::VectorXd next = (a.array() * (scale * move).array().exp()).matrix();
-      const double change = (next - a).sum() - scale * A.dot(step);
-      if (change <= -1e-4 * scale * slope || halvings == 40 || slope <= 1e-13 * A.sum()) {
-        a = next;
-        break;
-      }
-    }
-  }
-  const double error = (A - W.transpose() * a).cwiseAbs().maxCoeff();
-  if (error <= 1e3 * small) return {a.data(), a.data() + a.size()};
-  throw InputError(
-      {"", 0, "sampling"},
-      "no positive areas of the surface samples stand for the cloth; use another number of samples per cell");
-}
-
 /// A third of the rest area of the triangles at each sample.
-Eigen::VectorXd tributaryAreas(const Garment& garment, const Surface& s) {
+std::vector<double> tributaryAreas(const Garment& garment, const Surface& s) {
   std::vector<Vec3> Q, X(s.W.rows());
   for (const NurbsPatch& p : garment.patches) Q.insert(Q.end(), p.points.begin(), p.points.end());
   s.W.multiply<Vec3>(Q, X);
-  Eigen::VectorXd area = Eigen::VectorXd::Zero(s.W.rows());
+  std::vector<double> area(X.size(), 0.0);
   for (const auto& [a, b, c] : s.triangles)
-    for (int i : {a, b, c}) area(i) += norm(cross(X[b] - X[a], X[c] - X[a])) / 6;
+    for (int i : {a, b, c}) area[static_cast<std::size_t>(i)] += norm(cross(X[b] - X[a], X[c] - X[a])) / 6;
   return area;
 }
 
-}  // namespace
+/// Triangles of a trimmed patch that get a sample at their middle, one after the other.
+using Divided = std::vector<int>;
 
-std::vector<double> sampleParameters(const KnotVector& knots, int per_cell) {
-  if (per_cell == 0) return grevillePoints(knots);
-  const std::vector<double> ends = breakpoints(knots);
-  std::vector<double> at;
-  for (std::size_t c = 0; c + 1 < ends.size(); ++c)
-    for (int k = 0; k < per_cell; ++k) at.push_back(ends[c] + (ends[c + 1] - ends[c]) * k / per_cell);
-  at.push_back(ends.back());
-  return at;
+void divide(TrimMesh& mesh, const Divided& triangles) {
+  for (const int t : triangles) {
+    const auto [a, b, c] = mesh.triangles[static_cast<std::size_t>(t)];
+    const auto at = [&](int p) { return mesh.uv[static_cast<std::size_t>(p)]; };
+    const int m = static_cast<int>(mesh.uv.size());
+    mesh.uv.push_back({(at(a).x + at(b).x + at(c).x) / 3, (at(a).y + at(b).y + at(c).y) / 3});
+    mesh.triangles[static_cast<std::size_t>(t)] = {a, b, m};
+    mesh.triangles.push_back({b, c, m});
+    mesh.triangles.push_back({c, a, m});
+  }
 }
 
-Surface buildSurface(const Garment& garment, const FreeMap& map, int per_cell) {
-  return buildSurface(garment, map, std::vector<int>(garment.patches.size(), per_cell));
+/// Adds the triangles of trimmed patches in whose middles `against` (SampleAreas) is highest; false where it is nowhere
+/// above 0.
+bool divideWhere(const Garment& garment, const FreeMap& map, const Surface& s, std::span<const double> against,
+                 std::vector<Divided>& divided) {
+  constexpr double kHigh = 0.1;  // of the highest
+  std::vector<double> control(static_cast<std::size_t>(map.T.rows()));
+  map.T.multiply<double>(against, control);
+  const std::vector<int> offsets = controlOffsets(garment);
+  std::vector<std::pair<double, int>> high;
+  for (std::size_t t = 0; t < s.triangles.size(); ++t) {
+    const int p = s.triangle_patch[t];
+    if (!isTrimmed(garment, p)) continue;
+    Vec2 middle{};
+    for (const int i : s.triangles[t]) {
+      const Vec2 uv = s.parameters[static_cast<std::size_t>(i)];
+      middle = {middle.x + uv.x / 3, middle.y + uv.y / 3};
+    }
+    const SurfaceBasis basis = surfaceBasis(garment.patches[static_cast<std::size_t>(p)], middle.x, middle.y);
+    double value = 0;
+    for (std::size_t k = 0; k < basis.columns.size(); ++k)
+      value += basis.values[0][k] *
+               control[static_cast<std::size_t>(offsets[static_cast<std::size_t>(p)] + basis.columns[k])];
+    if (value > 0) high.push_back({-value, static_cast<int>(t)});
+  }
+  std::sort(high.begin(), high.end());
+  std::set<int> beside;  // corners of those that are divided now: one sample in a place at a time
+  for (const auto& [value, t] : high) {
+    if (-value < kHigh * -high.front().first) break;
+    const auto& corners = s.triangles[static_cast<std::size_t>(t)];
+    if (std::any_of(corners.begin(), corners.end(), [&](int i) { return beside.contains(i); })) continue;
+    beside.insert(corners.begin(), corners.end());
+    const int p = s.triangle_patch[static_cast<std::size_t>(t)];
+    const auto first = std::lower_bound(s.triangle_patch.begin(), s.triangle_patch.end(), p);
+    divided[static_cast<std::size_t>(p)].push_back(t - static_cast<int>(first - s.triangle_patch.begin()));
+  }
+  return !high.empty();
 }
 
-Surface buildSurface(const Garment& garment, const FreeMap& map, std::span<const int> per_cell) {
+/// All but the areas and the twins.
+Surface sampled(const Garment& garment, const FreeMap& map, std::span<const int> per_cell,
+                const std::vector<Divided>& divided) {
   const std::vector<int> offsets = controlOffsets(garment);
   const int patch_count = static_cast<int>(garment.patches.size());
-  if (per_cell.size() != garment.patches.size())
-    throw InputError({"", 0, "sampling"}, "one number of samples per cell for each patch is needed");
   Surface s;
   std::vector<std::vector<double>> us(patch_count), vs(patch_count);
   std::vector<int> first{0};
@@ -163,15 +136,14 @@ Surface buildSurface(const Garment& garment, const FreeMap& map, std::span<const
     s.parameters.push_back(uv);
     return s.W.rows() - 1;
   };
-  bool trimmed = false;
   s.W.column_count = offsets.back();
   s.patch_grid.resize(patch_count);
   s.edge_samples.resize(patch_count);
   for (int p = 0; p < patch_count; ++p) {
     const auto [nu, nv] = s.patch_grid_size[p];
     if (isTrimmed(garment, p)) {
-      trimmed = true;
-      const TrimMesh mesh = trimMesh(garment.patches[p], garment.trims[p], us[p], vs[p], joinedSides(garment, p));
+      TrimMesh mesh = trimMesh(garment.patches[p], garment.trims[p], us[p], vs[p], joinedSides(garment, p));
+      divide(mesh, divided[p]);
       std::vector<int> sample(mesh.uv.size(), -1);
       for (int raw = 0; raw < nu * nv; ++raw) {
         const int root = find(first[p] + raw), at = mesh.grid[raw];
@@ -228,20 +200,62 @@ Surface buildSurface(const Garment& garment, const FreeMap& map, std::span<const
   }
   s.WT = multiply(s.W, map.T);
   s.WTt = transpose(s.WT);
-  const std::vector<double> area = controlAreas(garment);
-  std::vector<double> free_area(map.T.column_count);
-  map.Tt.multiply<double>(area, free_area);
-  // The minimum norm turns negative beside slivers.
-  s.area_m2 = trimmed ? positiveAreas(s.WT, free_area, tributaryAreas(garment, s)) : consistentAreas(s.WT, free_area);
-  for (int i = 0; i < s.size(); ++i)
-    if (!(s.area_m2[i] > 0))
-      throw InputError({"", 0, "sampling"},
-                       "surface sample " + std::to_string(i) + " of patch " + std::to_string(s.patch[i]) + " at (" +
-                           std::to_string(s.parameters[i].x) + ", " + std::to_string(s.parameters[i].y) +
-                           ") would carry the area " + std::to_string(s.area_m2[i]) +
-                           " m^2; choose another number of samples per cell");
-  s.twins = sewnTwins(garment, s);
   return s;
+}
+
+}  // namespace
+
+std::vector<double> sampleParameters(const KnotVector& knots, int per_cell) {
+  if (per_cell == 0) return grevillePoints(knots);
+  const std::vector<double> ends = breakpoints(knots);
+  std::vector<double> at;
+  for (std::size_t c = 0; c + 1 < ends.size(); ++c)
+    for (int k = 0; k < per_cell; ++k) at.push_back(ends[c] + (ends[c + 1] - ends[c]) * k / per_cell);
+  at.push_back(ends.back());
+  return at;
+}
+
+Surface buildSurface(const Garment& garment, const FreeMap& map, int per_cell) {
+  return buildSurface(garment, map, std::vector<int>(garment.patches.size(), per_cell));
+}
+
+Surface buildSurface(const Garment& garment, const FreeMap& map, std::span<const int> per_cell) {
+  if (per_cell.size() != garment.patches.size())
+    throw InputError({"", 0, "sampling"}, "one number of samples per cell for each patch is needed");
+  const std::vector<double> area = controlAreas(garment);
+  std::vector<double> free_area(static_cast<std::size_t>(map.T.column_count));
+  map.Tt.multiply<double>(area, free_area);
+  const bool trimmed = [&] {
+    for (int p = 0; p < static_cast<int>(garment.patches.size()); ++p)
+      if (isTrimmed(garment, p)) return true;
+    return false;
+  }();
+  constexpr int kRounds = 40;
+  std::vector<Divided> divided(garment.patches.size());
+  for (int round = 0;; ++round) {
+    Surface s = sampled(garment, map, per_cell, divided);
+    if (trimmed) {
+      SampleAreas found = positiveAreas(s.WT, free_area, tributaryAreas(garment, s));
+      if (!found.against.empty()) {
+        if (round < kRounds && divideWhere(garment, map, s, found.against, divided)) continue;
+        throw InputError(
+            {"", 0, "sampling"},
+            "no positive areas of the surface samples stand for the cloth; use another number of samples per cell");
+      }
+      s.area_m2 = std::move(found.area_m2);
+    } else {
+      s.area_m2 = consistentAreas(s.WT, free_area);
+    }
+    for (int i = 0; i < s.size(); ++i)
+      if (!(s.area_m2[i] > 0))
+        throw InputError({"", 0, "sampling"},
+                         "surface sample " + std::to_string(i) + " of patch " + std::to_string(s.patch[i]) + " at (" +
+                             std::to_string(s.parameters[i].x) + ", " + std::to_string(s.parameters[i].y) +
+                             ") would carry the area " + std::to_string(s.area_m2[i]) +
+                             " m^2; choose another number of samples per cell");
+    s.twins = sewnTwins(garment, s);
+    return s;
+  }
 }
 
 }  // namespace gambeson

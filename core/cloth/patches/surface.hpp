@@ -12,8 +12,8 @@ namespace gambeson {
 
 /// Takes `per_cell` samples along each cell edge (their parameters divide the cell evenly), or the Greville points for
 /// 0. Samples on joined edges are one, so patches that seams join need the same number. Trimmed patches have samples
-/// along their loops, which outline the triangles (trim_mesh.hpp). Throws InputError where the samples are too few to
-/// see every control point, or an area is not positive.
+/// along their loops, which outline the triangles (trim_mesh.hpp), and within triangles where positive areas need them.
+/// Throws InputError where the samples are too few to see every control point, or an area is not positive.
 Surface buildSurface(const Garment& garment, const FreeMap& map, int per_cell);
 /// The same surface with a number of samples for each patch.
 Surface buildSurface(const Garment& garment, const FreeMap& map, std::span<const int> per_cell);

@@ -5,11 +5,14 @@
 
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <numeric>
+#include <set>
 
 #include "core/cloth/draft/areas.hpp"
 #include "core/cloth/draft/seams.hpp"
 #include "core/cloth/draft/sewn_length.hpp"
+#include "core/cloth/draft/shared_points.hpp"
 #include "core/error.hpp"
 #include "core/motion/sewing.hpp"
 #include "tryon/pattern/flat/panel_check.hpp"
@@ -241,6 +244,56 @@ TEST(Dart, PiecesGoOnSmoothlyAcrossTheirCuts) {
   }
   EXPECT_GT(apart, 5);  // near the tips both sides have points of their own
   EXPECT_LT(apart, looked / 2);
+}
+
+/// The front of a bodice: the cut of the waist dart ends on that of the bust dart, less than a cell above its tip.
+FlatPattern bustAndWaistDart() {
+  FlatPattern p;
+  p.name = "bodice";
+  p.panels = {dartPolygon("front", {{-0.108, 0},
+                                    {-0.096, 0.128},  // 1: the waist dart's tip
+                                    {-0.084, 0},
+                                    {0, 0},
+                                    {0, 0.4},
+                                    {-0.26, 0.4},
+                                    {-0.26, 0.18},
+                                    {-0.13, 0.16},  // 7: the bust dart's
+                                    {-0.26, 0.14},
+                                    {-0.25, 0}})};
+  p.seams = {{"bust", {{0, 6, 0, 1}}, {{0, 7, 1, 0}}, SeamUse::dart},
+             {"waist", {{0, 0, 0, 1}}, {{0, 1, 1, 0}}, SeamUse::dart}};
+  checkPattern(p);
+  return p;
+}
+
+/// Where cuts meet near a tip no third piece holds both sides of a dart together.
+TEST(Dart, SidesShareNoPointWhereCutsMeetNearATip) {
+  for (const double cell : {0.04, 0.03, 0.02, 0.01}) {
+    const FlatPattern p = bustAndWaistDart();
+    const Garment g = panelGarment(p, {cell, 2});
+    ASSERT_EQ(g.patches.size(), 3u);
+    const std::vector<int> owner = sharedOwners(g), first = controlOffsets(g);
+    const auto points = [&](const SewnPoint& at) {
+      std::set<int> out;
+      const SurfaceBasis basis = surfaceBasis(g.patches[static_cast<std::size_t>(at.patch)], at.uv.x, at.uv.y);
+      for (std::size_t k = 0; k < basis.columns.size(); ++k)
+        if (basis.values[0][k] > 1e-12)
+          out.insert(owner[static_cast<std::size_t>(first[static_cast<std::size_t>(at.patch)] + basis.columns[k])]);
+      return out;
+    };
+    int shared = 0;
+    for (std::size_t c = 0; c < owner.size(); ++c) shared += owner[c] != static_cast<int>(c);
+    EXPECT_GT(shared, cell < 0.015 ? 20 : 2) << cell;  // away from the tips
+    for (std::size_t k = 0; k < p.seams.size(); ++k) {
+      const SewnLength a(g, g.sewn_seams[k].a, ""), b(g, g.sewn_seams[k].b, "");
+      for (int i = 0; i <= 40; ++i) {
+        const std::set<int> left = points(a.at(i / 40.0)), right = points(b.at(i / 40.0));
+        std::vector<int> both;
+        std::set_intersection(left.begin(), left.end(), right.begin(), right.end(), std::back_inserter(both));
+        EXPECT_TRUE(both.empty()) << p.seams[k].name << " at " << i / 40.0 << ", cell " << cell;
+      }
+    }
+  }
 }
 
 /// What cannot be parted is said.
