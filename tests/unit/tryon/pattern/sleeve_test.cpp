@@ -215,6 +215,7 @@ TEST_P(Sleeves, EndBetweenArmholeAndWrist) {
 
 // Nor of themselves: what crosses is freed with a jerk, and a cell that is folded takes steps of a twentieth.
 TEST_P(Sleeves, StartClearOfTheSkin) {
+  pattern.cell_m = 0.035;
   human.skin = std::make_shared<Skin>(makeSkin(human));
   const BodyForm skinned(human);
   pattern.sleeve_length_m = armLength() - 1e-3;
