@@ -14,8 +14,10 @@ namespace {
 constexpr double bend_below_m = 0.08;  ///< of the armhole's lowest point: where the cap begins
 constexpr double level_m = 0.003;      ///< between cross-sections of the hull
 constexpr double tube_level_m = 0.01;  ///< between those of the tube
-constexpr double kRise = 0.4;          ///< slope at which a sleeve leaves the wrap under the arm
 constexpr int cap_pieces = 48;         ///< of a line over the cap
+/// Around the arm a cell under it is so many times as wide as others: with equal ones, lines of the back come up along
+/// the armhole's edge, and the surface folds there.
+constexpr double kWiderUnder = 2;
 /// From the armhole: within it a line comes off the hull, or into what is kept around the body, to its point.
 constexpr double drawn_m = 0.06, let_in_m = 0.02;
 
@@ -38,7 +40,6 @@ SleeveDraft::SleeveDraft(const ArmForm& arm, std::array<ArmholePart, 4> armhole,
     : arm_(arm), armhole_(std::move(armhole)) {
   double lowest = HUGE_VAL, highest = arm.top();
   for (ArmholePart& part : armhole_) {
-    around_ += part.cells;
     for (Vec3& x : part.points) {
       x = arm.toArm() * x;
       lowest = std::min(lowest, x.z), highest = std::max(highest, x.z);
@@ -100,10 +101,12 @@ double SleeveDraft::reach(const Wrap& of, const Vec3& x) const {
 
 SleeveDraft::Line SleeveDraft::makeLine(int part, double s) const {
   const ArmholePart& own = armhole_[static_cast<std::size_t>(part)];
-  const auto cells = [&](int p) { return static_cast<double>(armhole_[static_cast<std::size_t>(p)].cells); };
-  double before = -cells(0) - 0.5 * cells(1);  // of cells from the outermost line
-  for (int p = 0; p < part; ++p) before += cells(p);
-  const double share = (before + s * cells(part)) / around_;
+  const auto width = [&](int p) {  // in cells
+    return (p == 3 ? kWiderUnder : 1) * armhole_[static_cast<std::size_t>(p)].cells;
+  };
+  double before = -width(0) - 0.5 * width(1);  // from the outermost line
+  for (int p = 0; p < part; ++p) before += width(p);
+  const double share = (before + s * width(part)) / (width(0) + width(1) + width(2) + width(3));
   Line line;
   for (std::size_t k = 0; k < tube_.size(); ++k) {
     const Vec2 x = tube_[k].point(outermost_[k] + share * tube_[k].length());
@@ -113,12 +116,10 @@ SleeveDraft::Line SleeveDraft::makeLine(int part, double s) const {
   // How much of the line lies over the shoulder: none under the arm.
   const double over = part == 0 ? s : part == 1 ? 1 : part == 2 ? 1 - s : 0;
   const Vec3 p = line.points.back(), a = own.at(s);
-  // The arc's corner, above p: over the shoulder as high as the armhole's point along the arm; under the arm a little
-  // higher in the world, so that the sleeve rises from the wrap's edge, which bulges between its ends.
-  const Vec3 up = transposeTimes(arm_.toWorld().rotation, {0, 0, 1});
-  const double level = up.z > 0.5 ? a.z + (up.x * (a.x - p.x) + up.y * (a.y - p.y)) / up.z : a.z;
-  const double rise = kRise * std::hypot(a.x - p.x, a.y - p.y);
-  const Vec3 m{p.x, p.y, std::max(p.z, over * a.z + (1 - over) * (level + rise))};
+  // The arc's corner: over the shoulder above p, as high along the arm as the armhole's point; under the arm on the
+  // straight way to it, so that sleeve and wrap come up to their seam as two sides of a fold and bend nowhere else.
+  const Vec3 above{p.x, p.y, std::max(p.z, a.z)};
+  const Vec3 m = over * above + (0.5 * (1 - over)) * (p + a);
   // How far the armhole's point stands inside: there a line comes back to it.
   const double hulled = std::max(1.0, reach(*hull_, a)), kept = std::max(1.0, reach(arm_.kept(), a));
   for (int k = 1; k < cap_pieces; ++k) {

@@ -22,11 +22,11 @@ struct ArmholePart {
 /// counterclockwise seen from the shoulder, t from the hem up to the armhole.
 ///
 /// From the hem up to a little below the armhole the lines of constant s run along the arm at equal shares of the
-/// cross-sections' length, as many as there are cells. From there each goes over into its point of the armhole: over
-/// the shoulder on the convex hull of arm and armhole, as cloth under tension does; under the arm it leaves the arm on
-/// an arc that ends level at the armhole, away from the wrap that hangs from there. Front and back go over from the one
-/// into the other. Along each line t is its share of length, so that outer lines have longer cells than those under the
-/// arm, which are shorter.
+/// cross-sections' length, as many as there are cells; those under the arm are twice as far apart. From there each goes
+/// over into its point of the armhole: over the shoulder on the convex hull of arm and armhole, as cloth under tension
+/// does; under the arm straight, so that sleeve and wrap are the two sides of a fold along their seam. Front and back
+/// go over from the one into the other. Along each line t is its share of length, so that outer lines have longer cells
+/// than those under the arm, which are shorter.
 class SleeveDraft {
  public:
   /// The parts follow each other around the armhole and are closed: front, over the shoulder, back, under the arm.
@@ -52,7 +52,7 @@ class SleeveDraft {
   const ArmForm& arm_;
   std::array<ArmholePart, 4> armhole_;  ///< in the arm's frame
   double bend_ = 0;                     ///< z where lines leave the arm for the armhole
-  int around_ = 0, along_ = 0;
+  int along_ = 0;
   std::vector<ClosedCurve> tube_;  ///< cross-sections from hem to bend_
   std::vector<double> outermost_;  ///< where on each the outermost point stands
   std::optional<Wrap> hull_;       ///< of arm and armhole, above bend_
