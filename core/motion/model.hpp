@@ -102,6 +102,7 @@ struct Model {
   StrainRows strain_rows;  ///< without points where strain is not limited
   SewnProjection sewing;  ///< of the free points; empty: no seams are projected
   SewingOptions sewing_options;
+  std::vector<int> sewn_garment;  ///< of each row of `sewing`
   SparseRows sewn_pairs;  ///< SewnRows::pairs of the free points
   std::vector<double> sewn_cell_m;
   std::vector<NetEdge> net;
@@ -302,6 +303,7 @@ struct StepScratch {
   LimitWork limit;
   SewnProjection::Work sewn;
   std::vector<Vec3> sewn_rates, sewn_force, sewn_part, sewn_right;
+  std::vector<char> sewn_open;  ///< of each row of Model::sewing, whether its garment's seams are far open
   /// What seams give all free points, held ones too, where they close, and with what they give under contact [N s].
   std::vector<Vec3> sewn_closing, sewn_impulse;
   StageWork stage;

@@ -15,6 +15,7 @@
 #include "cases/cloth/strain_limit.hpp"
 #include "cases/contact/contact.hpp"
 #include "cases/input/json.hpp"
+#include "cases/pattern/seam_edits.hpp"
 #include "cases/runs/picture.hpp"
 #include "core/cloth/draft/garment.hpp"
 #include "core/cloth/draft/mesh_draft.hpp"
@@ -110,6 +111,7 @@ struct PatternGarment {
   double cell_m = 0.02;
   int degree = 2;
   double close_within_s = 5;  ///< by then its seams are closed
+  std::vector<SeamEdit> seams;  ///< that are otherwise than the file has them
 };
 
 /// Virtual stitching, Zheng 2013, section 6.3: the panels start apart, and springs along the seams close them.

@@ -27,6 +27,9 @@ Object patternGarmentTable() {
       .integer("degree", &P::degree, 2, 5, "polynomial degree")
       .number("close_within", &P::close_within_s, "s", aboveTo(0, 100),
               "by then its seams are closed around the wearer; else the run says which gape, and by how much")
+      .list("seams", &P::seams, seamEditTable(),
+            "which seams are otherwise than the file has them, in their order: changed, taken away, or new")
+      .defaultsTo("as the file has them")
       .build();
 }
 
@@ -37,16 +40,17 @@ namespace {
 
 const PatternGarment& of(const GarmentCase& g) { return std::get<PatternGarment>(g.shape); }
 
-/// Runs f; what is wrong with the pattern is said in its file.
+/// Runs f; what is wrong with the pattern is said in its file, or of a seam that the case edits by its key there.
 template <class F>
-auto inFile(const GarmentCase& g, F f) {
+auto inFile(const GarmentCase& g, const EditedPattern& edited, F f) {
   try {
     return f();
   } catch (const InputError& e) {
     if (!e.where().file.empty() || e.where().key == "human") throw;
+    if (std::string key; edited.isOfEdit(e, key)) throw InputError({"", 0, key}, e.reason());
     const JsonNode root = readJson(of(g).path, {.bytes = kPatternBytes});
     const std::string file = of(g).path.string();
-    sayAt(schema::Entry{root, "", file}, e);
+    sayAt(schema::Entry{root, "", file}, edited.inFile(e));
   }
 }
 
@@ -77,10 +81,10 @@ void checkPlaces(const FlatPattern& pattern) {
     }
 }
 
-FlatPattern patternOf(const GarmentCase& g) {
-  FlatPattern pattern = readPattern(of(g).path);
-  inFile(g, [&] { checkPlaces(pattern); });
-  return pattern;
+EditedPattern patternOf(const GarmentCase& g) {
+  EditedPattern edited = editSeams(readPattern(of(g).path), of(g).seams);
+  inFile(g, edited, [&] { checkPlaces(edited.pattern); });
+  return edited;
 }
 
 Garment garmentOf(const GarmentCase& g, const FlatPattern& pattern, std::vector<int>* panel_of = nullptr) {
@@ -89,15 +93,16 @@ Garment garmentOf(const GarmentCase& g, const FlatPattern& pattern, std::vector<
 
 /// Its patches and edges, wherever they will stand.
 Garment lookAt(const GarmentCase& g) {
-  FlatPattern pattern = patternOf(g);
-  for (Panel& p : pattern.panels)
+  EditedPattern edited = patternOf(g);
+  for (Panel& p : edited.pattern.panels)
     if (!p.placement) p.placement = PanelPlace{};
-  return inFile(g, [&] { return garmentOf(g, pattern); });
+  return inFile(g, edited, [&] { return garmentOf(g, edited.pattern); });
 }
 
 Garment makePanels(const GarmentMaking& m) {
-  FlatPattern pattern = patternOf(m.worn);
-  return inFile(m.worn, [&] {
+  EditedPattern edited = patternOf(m.worn);
+  FlatPattern& pattern = edited.pattern;
+  return inFile(m.worn, edited, [&] {
     if (!byRegions(pattern)) return garmentOf(m.worn, pattern);
     if (!m.human)
       throw InputError({"", 0, "panels"},
@@ -122,9 +127,10 @@ Garment makePanels(const GarmentMaking& m) {
 /// What is too narrow, and which panels stand in the body where they were placed for another.
 std::vector<std::string> fitOf(const GarmentMaking& m) {
   if (!m.human) return {};
-  const FlatPattern pattern = patternOf(m.worn);
+  const EditedPattern edited = patternOf(m.worn);
+  const FlatPattern& pattern = edited.pattern;
   const std::string name = m.worn.name.empty() ? pattern.name : m.worn.name;
-  return inFile(m.worn, [&] {
+  return inFile(m.worn, edited, [&] {
     std::vector<std::string> notes;
     std::vector<LaidPanel> front, back;
     if (byRegions(pattern)) {
@@ -167,10 +173,10 @@ const GarmentKind pattern_garment{
     .fit = fitOf,
     .arms =
         [](const GarmentCase& g) {
-          const FlatPattern pattern = patternOf(g);
+          const FlatPattern pattern = patternOf(g).pattern;
           return byRegions(pattern) && coversArms(pattern) ? ArmsWanted::aside : ArmsWanted::any;
         },
-    .as_scanned = [](const GarmentCase& g) { return !byRegions(patternOf(g)); },
+    .as_scanned = [](const GarmentCase& g) { return !byRegions(patternOf(g).pattern); },
     .look = lookAt,
     .files = [](GarmentCase& g, const GarmentKind::Take& take) { take(std::get<PatternGarment>(g.shape).path); },
 };
