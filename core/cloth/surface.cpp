@@ -74,7 +74,7 @@ std::vector<int> lineSamples(const Surface& s, std::span<const EdgePlace> line) 
     for (std::size_t k = 0; k + 1 < line.size(); ++k) {
       const Vec2 way = minus(line[k + 1].uv, line[k].uv), to = minus(at(v), line[k].uv);
       const double length = std::hypot(way.x, way.y);
-      const double part = length > 0 ? std::clamp(dot(to, way) / (length * length), 0.0, 1.0) : 0;
+      const double part = length > 0 ? std::clamp((to.x * way.x + to.y * way.y) / (length * length), 0.0, 1.0) : 0;
       const Vec2 off = minus(to, {part * way.x, part * way.y});
       if (const double d = std::hypot(off.x, off.y); d < least) least = d, along = start + part * length;
       start += length;

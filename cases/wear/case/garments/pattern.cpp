@@ -87,74 +87,74 @@ EditedPattern patternOf(const GarmentCase& g) {
   return edited;
 }
 
-Garment garmentOf(const GarmentCase& g, const FlatPattern& pattern, std::vector<int>* panel_of = nullptr) {
-  return panelGarment(pattern, {of(g).cell_m, of(g).degree}, panel_of);
-}
-
 /// Its patches and edges, wherever they will stand.
 Garment lookAt(const GarmentCase& g) {
   EditedPattern edited = patternOf(g);
   for (Panel& p : edited.pattern.panels)
     if (!p.placement) p.placement = PanelPlace{};
-  return inFile(g, edited, [&] { return garmentOf(g, edited.pattern); });
+  return inFile(g, edited, [&] { return panelGarment(edited.pattern, {of(g).cell_m, of(g).degree}); });
+}
+
+/// Where its panels start by their regions, those of its patches (`panel_of`): bent around the wearer.
+std::vector<std::vector<Vec3>> bentPoints(const Garment& garment, const std::vector<int>& panel_of,
+                                          const PlacedPanels& placed) {
+  std::vector<std::vector<Vec3>> out(garment.patches.size());
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const auto panel = static_cast<std::size_t>(panel_of[k]);
+    const PanelPlace& flat = placed.flat[panel];
+    for (const Vec3& x : garment.patches[k].points) {
+      const Vec3 r = x - flat.origin_m;
+      out[k].push_back(placed.bent[panel]({dot(r, flat.along_x), dot(r, flat.along_y)}));
+    }
+  }
+  return out;
+}
+
+/// Which panels stand in the body, as placed for another.
+void sayDepths(const FlatPattern& pattern, const std::string& name, const GarmentMaking& m, const StandingBody& body) {
+  for (const Panel& panel : pattern.panels) {
+    const PanelPlace& at = *panel.placement;
+    const PanelDepth d = depthInBody(
+        panel, [&](Vec2 x) { return m.worn.position_m + at.origin_m + x.x * at.along_x + x.y * at.along_y; }, body);
+    if (d.depth_m > 0)
+      m.fit->push_back(
+          fmt::format("panel \"{}\" of the garment \"{}\" starts {:.1f} cm deep in the body ({}): it is placed for "
+                      "another wearer; \"placing\": \"regions\" in its file places all by their regions",
+                      panel.name, name, 100 * d.depth_m, d.segment));
+  }
 }
 
 Garment makePanels(const GarmentMaking& m) {
   EditedPattern edited = patternOf(m.worn);
   FlatPattern& pattern = edited.pattern;
   return inFile(m.worn, edited, [&] {
-    if (!byRegions(pattern)) return garmentOf(m.worn, pattern);
-    if (!m.human)
+    const bool regions = byRegions(pattern);
+    if (regions && !m.human)
       throw InputError({"", 0, "panels"},
                        "stand around a human by their regions, and the case has none; allowed: a placement for each");
-    const PlacedPanels placed = placePanels(pattern, StandingBody(*m.human, m.posture));
-    for (std::size_t k = 0; k < pattern.panels.size(); ++k) pattern.panels[k].placement = placed.flat[k];
-    std::vector<int> panel_of;
-    Garment garment = garmentOf(m.worn, pattern, &panel_of);
-    garment.placed.resize(garment.patches.size());
-    for (std::size_t k = 0; k < garment.patches.size(); ++k) {
-      const auto panel = static_cast<std::size_t>(panel_of[k]);
-      const PanelPlace& flat = placed.flat[panel];
-      for (const Vec3& x : garment.patches[k].points) {
-        const Vec3 r = x - flat.origin_m;
-        garment.placed[k].push_back(placed.bent[panel]({dot(r, flat.along_x), dot(r, flat.along_y)}));
-      }
+    std::optional<StandingBody> body;
+    if (m.human && (regions || m.fit)) body.emplace(*m.human, m.posture);
+    std::optional<PlacedPanels> placed;
+    if (regions) {
+      placed = placePanels(pattern, *body);
+      for (std::size_t k = 0; k < pattern.panels.size(); ++k) pattern.panels[k].placement = placed->flat[k];
     }
-    return garment;
-  });
-}
-
-/// What is too narrow, and which panels stand in the body where they were placed for another.
-std::vector<std::string> fitOf(const GarmentMaking& m) {
-  if (!m.human) return {};
-  const EditedPattern edited = patternOf(m.worn);
-  const FlatPattern& pattern = edited.pattern;
-  const std::string name = m.worn.name.empty() ? pattern.name : m.worn.name;
-  return inFile(m.worn, edited, [&] {
-    std::vector<std::string> notes;
+    std::vector<int> panel_of;
+    Garment garment = panelGarment(pattern, {of(m.worn).cell_m, of(m.worn).degree}, &panel_of);
+    if (placed) garment.placed = bentPoints(garment, panel_of, *placed);
+    if (!m.fit || !body) return garment;
+    const std::string name = m.worn.name.empty() ? pattern.name : m.worn.name;
     std::vector<LaidPanel> front, back;
-    if (byRegions(pattern)) {
-      const PlacedPanels placed = placePanels(pattern, StandingBody(*m.human, m.posture));
-      front = placed.front, back = placed.back;
+    if (placed) {
+      front = placed->front, back = placed->back;
     } else {
       layAsPlaced(pattern, m.worn.position_m, front, back);
-      for (const Panel& panel : pattern.panels) {
-        const PanelPlace& at = *panel.placement;
-        const PanelDepth d = depthInBody(
-            panel, [&](Vec2 x) { return m.worn.position_m + at.origin_m + x.x * at.along_x + x.y * at.along_y; },
-            StandingBody(*m.human, m.posture));
-        if (d.depth_m > 0)
-          notes.push_back(
-              fmt::format("panel \"{}\" of the garment \"{}\" starts {:.1f} cm deep in the body ({}): it is "
-                          "placed for another wearer; \"placing\": \"regions\" in its file places all by their regions",
-                          panel.name, name, 100 * d.depth_m, d.segment));
-      }
+      sayDepths(pattern, name, m, *body);
     }
-    if (const std::string text = shortText(panelGirths(pattern, front, back, StandingBody(*m.human, m.posture)));
-        !text.empty())
-      notes.push_back(
+    if (const std::string text = shortText(panelGirths(pattern, front, back, *body)); !text.empty())
+      m.fit->push_back(
           fmt::format("garment \"{}\" is narrower than its wearer before anything is sewn: {}", name, text));
-    return notes;
+    return garment;
   });
 }
 
@@ -170,7 +170,6 @@ const GarmentKind pattern_garment{
                                             "flat panels from a file, sewn around the wearer");
         },
     .make = makePanels,
-    .fit = fitOf,
     .arms =
         [](const GarmentCase& g) {
           const FlatPattern pattern = patternOf(g).pattern;
