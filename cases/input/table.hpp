@@ -86,7 +86,7 @@ class Table {
   Table& flag(const std::string& key, Get get, const std::string& doc) {
     Field& f = add(key, Kind::boolean, doc);
     f.read = [=](const Entry& p, void* t) { member(get, t) = readBoolean(p); };
-    f.write = [=](const void* t) { return writeMember(member(get, t)); };
+    f.write = [=](const void* t) { return std::optional(nodeOf(member(get, t))); };
     return *this;
   }
   /// Text; an empty one counts as absent.
@@ -298,13 +298,9 @@ class Table {
   static const auto& member(Get get, const void* t) {
     return std::invoke(get, *static_cast<const T*>(t));
   }
-  static std::optional<JsonNode> writeMember(bool b) { return nodeOf(b); }
   static std::optional<JsonNode> writeMember(double x) { return nodeOf(x); }
   static std::optional<JsonNode> writeMember(int x) { return nodeOf(static_cast<double>(x)); }
   static std::optional<JsonNode> writeMember(const Vec3& v) { return nodeOf(v); }
-  static std::optional<JsonNode> writeMember(const std::optional<bool>& b) {
-    return b ? std::optional(nodeOf(*b)) : std::nullopt;
-  }
   static std::optional<JsonNode> writeMember(const std::optional<int>& x) {
     return x ? std::optional(nodeOf(static_cast<double>(*x))) : std::nullopt;
   }

@@ -229,7 +229,13 @@ void addSeamFields(Table<S>& table) {
                    {"sewn", SeamUse::sewn}, {"dart", SeamUse::dart}, {"opening", SeamUse::opening}},
                "dart: of one panel; opening: it may be open (zip, buttons, lacing)");
   otherwise();
-  table.flag("open", &S::open, "of an opening: it is worn open, and nothing holds it but its buttons");
+  const char* const open = "of an opening: it is worn open, and nothing holds it but its buttons";
+  if constexpr (edits)
+    table.custom(
+        fieldOf("open", Kind::boolean, "", any(), open), [](const Entry& p, S& s) { s.open = readBoolean(p); },
+        [](const S& s) { return s.open ? std::optional(nodeOf(*s.open)) : std::nullopt; });
+  else
+    table.flag("open", &S::open, open);
   otherwise();
   table.integer("buttons", &S::buttons, 0, 100,
                 "that hold an open seam, each 1 cm of it (a cell, where that is longer): evenly spaced, the first and "
