@@ -275,23 +275,31 @@ Object makeSeamEditTable() {
       .required();
   table.flag("remove", &E::remove, "it is not sewn at all").unwritten();
   table
-      .texts("a", &E::a,
-             "one side of a new seam, as in a pattern's file: \"front.3\", \"front.3 reversed\", \"front.3 from 0.25 to "
-             "1\"")
+      .texts(
+          "a", &E::a,
+          "one side of a new seam, as in a pattern's file: \"front.3\", \"front.3 reversed\", \"front.3 from 0.25 to "
+          "1\"")
       .defaultsTo("none: the seam is one of the pattern's file");
   table.texts("b", &E::b, "its other side").defaultsTo("none");
   addSeamFields(table);
   table.check([](const Entry& p, const E& e) {
     if (e.a.empty() != e.b.empty())
       p.failAt(e.a.empty() ? "b" : "a", "is one side of a new seam; allowed: both a and b, or neither");
-    if (!e.remove) {
-      if (e.a.empty() && !e.use && !e.open && !e.buttons && !e.stiffness_N && !e.rest_angle_rad)
-        p.fail("changes nothing; allowed: \"remove\": true, use, open, buttons, stiffness, rest_angle, or a and b of a "
-               "new seam");
-      return;
+    bool says = e.remove;
+    for (const auto& [key, given] :
+         std::initializer_list<std::pair<const char*, bool>>{{"a", !e.a.empty()},
+                                                             {"use", e.use.has_value()},
+                                                             {"open", e.open.has_value()},
+                                                             {"buttons", e.buttons.has_value()},
+                                                             {"stiffness", e.stiffness_N.has_value()},
+                                                             {"rest_angle", e.rest_angle_rad.has_value()}}) {
+      if (e.remove && given) p.failAt(key, "has no meaning for a seam that is taken away; allowed: without \"remove\"");
+      says = says || given;
     }
-    for (const char* key : {"a", "b", "use", "open", "buttons", "stiffness", "rest_angle"})
-      if (p.node.find(key)) p.failAt(key, "has no meaning for a seam that is taken away; allowed: without \"remove\"");
+    if (!says)
+      p.fail(
+          "changes nothing; allowed: \"remove\": true, use, open, buttons, stiffness, rest_angle, or a and b of a new "
+          "seam");
   });
   return table.build();
 }

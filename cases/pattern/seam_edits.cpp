@@ -73,9 +73,10 @@ void apply(const SeamEdit& edit, int number, EditedPattern& to) {
   if (adds) {
     if (std::any_of(pattern.seams.begin(), pattern.seams.end(),
                     [&](const PanelSeam& s) { return s.name == edit.seam; }))
-      reject("seam", fmt::format("\"{}\" is a seam already; allowed with \"a\" and \"b\": the name of a new one, or its "
-                                 "name after an entry that says \"remove\": true of it",
-                                 edit.seam));
+      reject("seam",
+             fmt::format("\"{}\" is a seam already; allowed with \"a\" and \"b\": the name of a new one, or its "
+                         "name after an entry that says \"remove\": true of it",
+                         edit.seam));
     PanelSeam seam;
     seam.name = edit.seam;
     seam.a = sideOf("a", edit.a, pattern);

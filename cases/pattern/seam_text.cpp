@@ -40,8 +40,9 @@ int edgeNumber(std::string_view whole, std::string_view word, const Panel& panel
   for (int e = 0; e < edgeCount(panel); ++e)
     if (edgeOf(panel, e).name == word) found = e, ++count;
   if (count == 1) return found;
-  reject(whole, count > 1 ? fmt::format("names {} edges of panel \"{}\"; allowed: one, by its number", count, panel.name)
-                          : fmt::format("names no edge of panel \"{}\"; allowed: {}", panel.name, edgesText(panel)));
+  reject(whole, count > 1
+                    ? fmt::format("names {} edges of panel \"{}\"; allowed: one, by its number", count, panel.name)
+                    : fmt::format("names no edge of panel \"{}\"; allowed: {}", panel.name, edgesText(panel)));
 }
 
 }  // namespace
@@ -67,8 +68,9 @@ SeamPart partOf(std::string_view text, std::span<const Panel> panels) {
   }
   std::string_view name = text, edge;
   if (!cut(name, ".", edge) || edge.empty())
-    reject(whole, "names no edge; allowed: PANEL.EDGE, as \"front.3\", \"front.hem\", \"front.3 reversed\" or \"front.3 "
-                  "from 0.25 to 1\"");
+    reject(whole,
+           "names no edge; allowed: PANEL.EDGE, as \"front.3\", \"front.hem\", \"front.3 reversed\" or \"front.3 "
+           "from 0.25 to 1\"");
   std::vector<std::string> names;
   for (const Panel& panel : panels) {
     if (panel.name == name) {

@@ -14,7 +14,8 @@ namespace {
 Object fixedTable() {
   Table<FixedSupport> table("Fixed edge");
   edgeField(table);
-  table.integer("rows", &FixedSupport::rows, 1, 2, "rows of control points held: 1 holds the edge, 2 also its slope; of an edge of a panel, which lies "
+  table.integer("rows", &FixedSupport::rows, 1, 2,
+                "rows of control points held: 1 holds the edge, 2 also its slope; of an edge of a panel, which lies "
                 "across the cells, all that shape it are held, and with them its slope");
   heldFields(table);
   return table.build();

@@ -96,11 +96,13 @@ TEST(SeamEdits, WhatIsWrongIsSaidAtTheEdit) {
   // A seam of which both sides are too unlike is found out as the garment is made, at the edit too.
   e = editOf("gather");
   e.a = {"front.1 from 0 to 0.3"}, e.b = {"back.3 reversed"};
-  EditedPattern gathered = editSeams([] {
-    FlatPattern p = skirtToEdit();
-    p.seams.erase(p.seams.begin());
-    return p;
-  }(), std::vector{e});
+  EditedPattern gathered = editSeams(
+      [] {
+        FlatPattern p = skirtToEdit();
+        p.seams.erase(p.seams.begin());
+        return p;
+      }(),
+      std::vector{e});
   try {
     panelGarment(gathered.pattern, {0.05, 2});
     ADD_FAILURE();

@@ -13,7 +13,8 @@ namespace {
 
 const std::string hung_skirt = R"json({
   "name": "hung skirt",
-  "garment": {"pattern": {"path": ")json" GAMBESON_SOURCE_DIR R"json(/cases/library/garments/skirt_of_two_panels.json", "cell": "5 cm",
+  "garment": {"pattern": {"path": ")json" GAMBESON_SOURCE_DIR
+                               R"json(/cases/library/garments/skirt_of_two_panels.json", "cell": "5 cm",
     "seams": [
       {"seam": "left side", "use": "opening", "open": true, "buttons": 2, "stiffness": 0},
       {"seam": "front.3", "remove": true},
@@ -90,7 +91,8 @@ TEST(PanelEdges, WhatIsWrongIsSaidInTheCase) {
         "is sewn already, by seam \"right side\""},
        {", \"b\": [\"front.3 reversed\"]", "", 7, "garment.pattern.seams[2].a", "both a and b"},
        {"\"front.waist\"", "\"front.wasit\"", 12, "supports[0].fixed.edge",
-        "is not an edge of this garment; allowed: front.0, front.1, front.2, front.3, front.hem or front.waist, or patch"},
+        "is not an edge of this garment; allowed: front.0, front.1, front.2, front.3, front.hem or front.waist, or "
+        "patch"},
        {"\"front.waist\"", "\"fornt.waist\"", 12, "supports[0].fixed.edge", "back.hem"}});
 }
 
