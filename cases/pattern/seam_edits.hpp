@@ -6,7 +6,6 @@
 ///             {"seam": "front.7", "remove": true},
 ///             {"seam": "centre back", "a": ["back left.2"], "b": ["back right.4 reversed"]}]
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,20 +13,9 @@
 #include "cases/input/schema.hpp"
 #include "core/error.hpp"
 #include "tryon/pattern/flat/panel.hpp"
+#include "tryon/pattern/flat/seam_edit.hpp"
 
 namespace gambeson {
-
-/// With sides a and b it is a new seam; else it changes one, or takes it away.
-struct SeamEdit {
-  std::string seam;  ///< its name; of one that there is, an edge that is sewn in it will do ("front.3")
-  bool remove = false;
-  std::vector<std::string> a, b;
-  // As those of PanelSeam; what is not said stays.
-  std::optional<SeamUse> use;
-  std::optional<bool> open;
-  std::optional<int> buttons;
-  std::optional<double> stiffness_N, rest_angle_rad;
-};
 
 struct EditedPattern {
   /// Where a seam stands: in the list of edits, else in the pattern's file.

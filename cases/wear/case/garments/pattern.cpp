@@ -8,6 +8,7 @@
 #include "cases/input/table.hpp"
 #include "cases/input/wrong_entry.hpp"
 #include "cases/pattern/pattern_file.hpp"
+#include "cases/pattern/seam_edits.hpp"
 #include "cases/wear/case/garments/kind.hpp"
 #include "core/error.hpp"
 #include "tryon/pattern/flat/panel_fit.hpp"

@@ -34,7 +34,8 @@ void edgeField(Table<S>& table) {
       [](const Entry& p, S& s) {
         const std::string& text = readText(p);
         const std::size_t dot_at = text.find('.');
-        const std::string patch = text.substr(0, dot_at), side = dot_at == std::string::npos ? "" : text.substr(dot_at + 1);
+        const std::string patch = text.substr(0, dot_at),
+                          side = dot_at == std::string::npos ? "" : text.substr(dot_at + 1);
         const auto found = std::find(side_names.begin(), side_names.end(), side);
         if (patch.empty() || patch.size() > 4 || patch.find_first_not_of("0123456789") != std::string::npos ||
             found == side_names.end()) {

@@ -37,7 +37,7 @@ struct SupportGroup {
 struct SupportedCloth {
   const Cloth& cloth;
   const Surface& surface;
-  const Human* human = nullptr;         ///< null where the case has none
+  const Human* human = nullptr;           ///< null where the case has none
   std::string name;                       ///< of the edge; of what is on none, of the garment, with a blank
   int first_patch = 0;                    ///< of the garment
   NamedEdge edge{};                       ///< its patches are those of the cloth
