@@ -100,10 +100,10 @@ struct Model {
   std::vector<Vec3> dead_force_N;  ///< constant forces of the free points; empty where there are none
   StrainLimit strain_limit;
   StrainRows strain_rows;  ///< without points where strain is not limited
-  SewnProjection sewing;  ///< of the free points; empty: no seams are projected
+  SewnProjection sewing;   ///< of the free points; empty: no seams are projected
   SewingOptions sewing_options;
   std::vector<int> sewn_garment;  ///< of each row of `sewing`
-  SparseRows sewn_pairs;  ///< SewnRows::pairs of the free points
+  SparseRows sewn_pairs;          ///< SewnRows::pairs of the free points
   std::vector<double> sewn_cell_m;
   std::vector<NetEdge> net;
   std::vector<Stitch> stitches;

@@ -5,8 +5,9 @@
 ///   (M + h D) a = F - C^T lambda,  C a = 0,   v(n+1/2) = v + dt/2 a,  C v(n+1/2) = r
 /// is velocity Verlet of the constrained system, symplectic as before. Its frequencies interlace those of the unsewn
 /// one (Cauchy), so that no stable step is shorter. Contacts see W - W C^T (C W C^T)^-1 C W in the place of W = M^-1
-/// (SewnHold): contacts and seams are one problem, but for garments whose seams are far open (findOpenSeams). Rigid impact zones, which
-/// come after all contacts, have the last word where they meet a seam; what they part closes as an open seam does.
+/// (SewnHold): contacts and seams are one problem, but for garments whose seams are far open (findOpenSeams). Rigid
+/// impact zones, which come after all contacts, have the last word where they meet a seam; what they part closes as an
+/// open seam does.
 
 #include "core/contact/projecting_hold.hpp"
 #include "core/motion/model.hpp"
@@ -15,8 +16,8 @@ namespace gambeson {
 
 /// The rates at which the gaps of the rows change in a step that starts at p: those of a garment all close by the same
 /// part of themselves in a second, close_per_s or what brings its widest to close_m_per_s. One part for all, as rates
-/// - c C p can be had whatever rows nearly depend on each other. Gaps that are closed stay so: what rounding has left of
-/// them is taken too.
+/// - c C p can be had whatever rows nearly depend on each other. Gaps that are closed stay so: what rounding has left
+/// of them is taken too.
 void closingRates(const Model& model, std::span<const Vec3> p, double dt_s, StepScratch& work);
 
 /// Makes w.predictor keep the seams; w.sewn_closing becomes what that gives all points, held ones too [N s].
@@ -26,9 +27,9 @@ void sewVelocities(const Model& model, std::span<const Vec3> p, double dt_s, Ste
 std::span<const Vec3> sewAccelerations(const Model& model, double half_step_s, std::span<Vec3> a, StepScratch& work);
 
 /// Finds work.sewn_open by the rates: garments whose seams are still far open, as their widest gap closes as fast as
-/// gaps may. Their rates are wishes then, which contact grants as far as it can: it does not see their seams, and what it
-/// moves them by closes in later steps. A body between two edges, or friction in a wedge, contradicts a rate that must
-/// be kept by whatever force.
+/// gaps may. Their rates are wishes then, which contact grants as far as it can: it does not see their seams, and what
+/// it moves them by closes in later steps. A body between two edges, or friction in a wedge, contradicts a rate that
+/// must be kept by whatever force.
 void findOpenSeams(const Model& model, StepScratch& work);
 /// Whether contact sees seams of any garment.
 bool someSeamsHold(const StepScratch& work);

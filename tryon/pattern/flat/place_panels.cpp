@@ -410,7 +410,8 @@ class Placing {
     });
     const std::vector<Vec2> hull = among ? hullBetween(bottom_, top_) : hullBetween(bottom, bottom + height);
     const double around = tapeGirth(hull);
-    const double off = std::max(clearance_m + (among ? kGap_m : 0), (length + 2 * kGap_m - around) / (2 * std::numbers::pi));
+    const double off =
+        std::max(clearance_m + (among ? kGap_m : 0), (length + 2 * kGap_m - around) / (2 * std::numbers::pi));
     const auto tube = std::make_shared<BodyTube>(hull, off);
     const Vec2 c = tube->centre();
     Vec2 direction{};

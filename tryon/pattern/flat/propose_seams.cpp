@@ -31,8 +31,8 @@ struct Side {
   bool isAside() const { return !looks || std::abs(looks->x) > kAside; }
 };
 
-/// Up along the grain, by which a panel hangs: within 30 degrees of its y axis that way; of a panel that was drawn lying
-/// as the grain line runs. None where it has no grain line, or is cut on the bias.
+/// Up along the grain, by which a panel hangs: within 30 degrees of its y axis that way; of a panel that was drawn
+/// lying as the grain line runs. None where it has no grain line, or is cut on the bias.
 std::optional<Vec2> upOf(const Panel& panel) {
   if (!panel.grain) return std::nullopt;
   const Vec2 way{panel.grain->to_m.x - panel.grain->from_m.x, panel.grain->to_m.y - panel.grain->from_m.y};
@@ -50,7 +50,8 @@ bool isStraight(const MeasuredCurve& c) {
 /// The cloth lies to the left of an edge.
 bool isHollow(const MeasuredCurve& c) {
   const Vec2 a = c.at(0).point, b = c.at(1).point, m = c.at(0.5).point;
-  return (b.x - a.x) * (m.y - a.y) - (b.y - a.y) * (m.x - a.x) > kStraight * c.length_m() * std::hypot(b.x - a.x, b.y - a.y);
+  return (b.x - a.x) * (m.y - a.y) - (b.y - a.y) * (m.x - a.x) >
+         kStraight * c.length_m() * std::hypot(b.x - a.x, b.y - a.y);
 }
 
 std::optional<Vec2> looksOf(const MeasuredCurve& c, const std::optional<Vec2>& up) {
@@ -79,7 +80,14 @@ void addSides(const Panel& panel, int number, std::vector<Side>& out) {
   const std::optional<Vec2> up = upOf(panel);
   for (int e = 0; e < n; ++e) {
     const MeasuredCurve& curve = curves[static_cast<std::size_t>(e)];
-    Side side{number, e, curve.length_m(), {}, corner(e), corner((e + 1) % n), isStraight(curve), isHollow(curve),
+    Side side{number,
+              e,
+              curve.length_m(),
+              {},
+              corner(e),
+              corner((e + 1) % n),
+              isStraight(curve),
+              isHollow(curve),
               looksOf(curve, up)};
     for (const Notch& notch : panel.notches)
       if (notch.edge == e && notch.at > 1e-6 && notch.at < 1 - 1e-6) side.notches.push_back(notch.at);
@@ -112,8 +120,8 @@ bool lookAlike(const Side& a, const Side& b) {
 /// (the hem) between them, and with more of the panel on the other side than a fourth edge.
 bool closesRound(const Side& a, const Side& b, std::size_t count) {
   const int n = static_cast<int>(count), apart = std::abs(a.edge - b.edge);
-  return n > 4 && a.isAside() && b.isAside() && !lookAlike(a, b) && (apart == 2 || apart == n - 2) && a.straight && b.straight &&
-         std::abs(a.length_m - b.length_m) <= kRound * a.length_m;
+  return n > 4 && a.isAside() && b.isAside() && !lookAlike(a, b) && (apart == 2 || apart == n - 2) && a.straight &&
+         b.straight && std::abs(a.length_m - b.length_m) <= kRound * a.length_m;
 }
 
 struct Pair {
@@ -126,13 +134,12 @@ std::optional<double> misfit(const Side& a, const Side& b, bool images) {
   const double allowed = std::max(kLength_m, kLengthShare * std::max(a.length_m, b.length_m));
   const double off = std::abs(a.length_m - b.length_m) / allowed;
   if (!(off < 1)) return std::nullopt;
-  if (a.isDown() && b.isDown()) return std::nullopt;                            // hems, cuffs
-  if (a.isUp() && b.isUp() && a.hollow && b.hollow) return std::nullopt;        // necks
-  if (images && !(a.isAside() && b.isAside())) return std::nullopt;             // no centre lines
+  if (a.isDown() && b.isDown()) return std::nullopt;                      // hems, cuffs
+  if (a.isUp() && b.isUp() && a.hollow && b.hollow) return std::nullopt;  // necks
+  if (images && !(a.isAside() && b.isAside())) return std::nullopt;       // no centre lines
   const double corners = 0.5 * (std::abs(a.start_rad + b.end_rad - std::numbers::pi) +
                                 std::abs(a.end_rad + b.start_rad - std::numbers::pi));
-  const double within =
-      0.5 * off + 0.5 * std::min(1.0, corners / std::numbers::pi) + (lookAlike(a, b) ? kSameSide : 0);
+  const double within = 0.5 * off + 0.5 * std::min(1.0, corners / std::numbers::pi) + (lookAlike(a, b) ? kSameSide : 0);
   if (images) return a.straight && b.straight ? std::optional(3 + within) : std::nullopt;
   if (a.notches.size() != b.notches.size()) return 2 + within;
   double apart = 0;

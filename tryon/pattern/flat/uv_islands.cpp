@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <numbers>
+#include <set>
 #include <tuple>
 #include <utility>
 

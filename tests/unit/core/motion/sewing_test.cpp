@@ -338,7 +338,8 @@ TEST(Sewing, WhatAMovedPanelGivesIsInTheEnergy) {
       worst = std::max(worst, r.momentum.error() / r.momentum.scale);
     }
     off[fine] = std::abs(energyOf(*model, stage, state, work).total() - first - works) / std::abs(supports);
-    std::printf("moved panel: supports %.4g J, energy off by %.3g of that, momentum %.1e\n", supports, off[fine], worst);
+    std::printf("moved panel: supports %.4g J, energy off by %.3g of that, momentum %.1e\n", supports, off[fine],
+                worst);
     EXPECT_LT(worst, 1e-9);
     EXPECT_GT(std::abs(supports), 1e-4);
   }
@@ -379,8 +380,8 @@ TEST(Sewing, OneGarmentsSeamsHoldWhileAnothersAreOpen) {
     held = std::max(held, widest[0]);
     open = std::min(open, widest[1]);
   }
-  std::printf("two garments: seam that holds %.1e m, that is open %.3f m, %d steps with contacts on the seam\n", held, open,
-              touching);
+  std::printf("two garments: seam that holds %.1e m, that is open %.3f m, %d steps with contacts on the seam\n", held,
+              open, touching);
   EXPECT_GT(touching, 50);
   EXPECT_GT(open, 0.08);
   EXPECT_LT(held, 1e-9);

@@ -93,7 +93,8 @@ TEST(UvIslands, NamedEdgesCrossFromIslandToIsland) {
   for (int i = 0; i < 5; ++i)
     for (const double y : {0.0, 1.0}) m.vertices.push_back({i * 1.0, y, 0});
   for (int i = 0; i < 4; ++i)
-    for (const std::array<int, 3>& t : {std::array{2 * i, 2 * i + 2, 2 * i + 3}, std::array{2 * i, 2 * i + 3, 2 * i + 1}}) {
+    for (const std::array<int, 3>& t :
+         {std::array{2 * i, 2 * i + 2, 2 * i + 3}, std::array{2 * i, 2 * i + 3, 2 * i + 1}}) {
       m.triangles.push_back(t);
       m.patch.push_back(0);
       auto& uv = m.uv.emplace_back();
