@@ -96,5 +96,21 @@ TEST(PanelEdges, WhatIsWrongIsSaidInTheCase) {
        {"\"front.waist\"", "\"fornt.waist\"", 12, "supports[0].fixed.edge", "back.hem"}});
 }
 
+/// What goes without sewn seams is named by its key.
+TEST(PanelEdges, WhatSewnSeamsDoNotGoWithIsNamed) {
+  const Folder folder;
+  const std::filesystem::path file = folder.write("case.json", hung_skirt);
+  for (const auto& [set, key] : {std::pair("strain_limit={\"mode\": \"upper_limit\", \"limit\": 0.05}", "strain_limit"),
+                                 {"garment.model=triangles", "garment.model"},
+                                 {"garment.model=springs", "garment.model"},
+                                 {"time.scheme=rk4", "time.scheme"}})
+    try {
+      buildScenario(readCase(file, {set}));
+      ADD_FAILURE() << set;
+    } catch (const InputError& e) {
+      EXPECT_EQ(e.where().key, key) << e.what();
+    }
+}
+
 }  // namespace
 }  // namespace gambeson
