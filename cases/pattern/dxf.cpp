@@ -219,8 +219,9 @@ ImportedPattern readDxf(const std::filesystem::path& file, const ImportChoices& 
   if (all.empty() && largest(dxf).x == 0) none();
   const std::string unit = unitOf(file, dxf, choices, out.notes);
   std::vector<DxfBlock> loose;
+  DxfCounts counts;
   if (all.empty()) {
-    loose = loosePieces(dxf.entities, metresOf(unit));
+    loose = loosePieces(dxf.entities, metresOf(unit), counts);
     for (const DxfBlock& b : loose) all.push_back(&b);
     if (all.empty()) none();
     out.notes.push_back("has no blocks: each closed line of layer 1 in ENTITIES is a piece, with what lies within it");
@@ -236,7 +237,6 @@ ImportedPattern readDxf(const std::filesystem::path& file, const ImportChoices& 
   const std::string style = value(dxf.entities, "STYLE NAME");
   pattern.name = style.empty() ? file.stem().string() : style;
   pattern.source = {file.filename().string(), "DXF-AAMA/ASTM", unit};
-  DxfCounts counts;
   for (const DxfBlock* b : blocks)
     pattern.panels.push_back(
         panelOf(file, *b, metresOf(unit) * scaleOf(file, dxf, b->name, out.notes), choices.unfold, out.notes, counts));

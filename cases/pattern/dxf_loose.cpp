@@ -55,7 +55,7 @@ double distance(const std::vector<Vec2>& polygon, Vec2 p) {
 
 }  // namespace
 
-std::vector<DxfBlock> loosePieces(const std::vector<DxfEntity>& entities, double metres) {
+std::vector<DxfBlock> loosePieces(const std::vector<DxfEntity>& entities, double metres, DxfCounts& dropped) {
   constexpr double on_m = 1e-3;
   std::vector<std::vector<Vec2>> all, outer;
   for (const DxfChain& c : chainsOf(entities, "1", metres))
@@ -70,11 +70,15 @@ std::vector<DxfBlock> loosePieces(const std::vector<DxfEntity>& entities, double
   for (const DxfEntity& e : entities) {
     if (e.points.empty() || e.kind == DxfEntity::Kind::insert) continue;
     const Vec2 p{metres * e.points.front().x, metres * e.points.front().y};
-    for (std::size_t k = 0; k < outer.size(); ++k)
-      if (isWithin(outer[k], p) || distance(outer[k], p) <= on_m) {
-        out[k].entities.push_back(e);
-        break;
-      }
+    const auto of = std::find_if(outer.begin(), outer.end(), [&](const std::vector<Vec2>& polygon) {
+      return isWithin(polygon, p) || distance(polygon, p) <= on_m;
+    });
+    if (of != outer.end())
+      out[static_cast<std::size_t>(of - outer.begin())].entities.push_back(e);
+    else if (e.kind != DxfEntity::Kind::text)
+      dropped.add(fmt::format("a {} of layer {} that lies in no closed line of layer 1", e.type, e.layer));
+    else if (!systemText(e))
+      dropped.add("a text that lies in no closed line of layer 1");
   }
   return out;
 }

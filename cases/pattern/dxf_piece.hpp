@@ -31,7 +31,8 @@ Panel panelOf(const std::filesystem::path& file, const DxfBlock& block, double m
               std::vector<std::string>& notes, DxfCounts& dropped);
 
 /// What stands in ENTITIES as blocks, where a file has pieces without blocks: each closed line of layer 1 that lies in
-/// no other, with what lies within it. `metres`: as above.
-std::vector<DxfBlock> loosePieces(const std::vector<DxfEntity>& entities, double metres);
+/// no other, with what lies within it. `metres`: as above. What lies in none is counted in `dropped`; texts of the
+/// style are no part of a piece.
+std::vector<DxfBlock> loosePieces(const std::vector<DxfEntity>& entities, double metres, DxfCounts& dropped);
 
 }  // namespace gambeson

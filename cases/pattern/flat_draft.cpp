@@ -9,6 +9,7 @@
 
 #include "cases/pattern/dxf_write.hpp"
 #include "cases/pattern/pattern_file.hpp"
+#include "cases/pattern/seam_text.hpp"
 #include "cases/pattern/svg.hpp"
 #include "core/error.hpp"
 #include "core/io/own_file.hpp"

@@ -16,6 +16,7 @@
 #include "cases/pattern/garmentcode.hpp"
 #include "cases/pattern/mesh_import.hpp"
 #include "cases/pattern/pattern_file.hpp"
+#include "cases/pattern/seam_text.hpp"
 #include "cases/pattern/svg.hpp"
 #include "cases/runs/results_folder.hpp"
 #include "core/error.hpp"

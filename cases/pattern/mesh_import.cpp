@@ -9,7 +9,7 @@
 #include <ostream>
 
 #include "cases/input/message.hpp"
-#include "cases/pattern/pattern_file.hpp"
+#include "cases/pattern/seam_text.hpp"
 #include "core/cloth/draft/obj_mesh.hpp"
 #include "core/error.hpp"
 #include "human/files/mesh.hpp"
@@ -35,6 +35,13 @@ std::string endingOf(const std::filesystem::path& file) {
 }
 
 std::string counted(int n, const char* one, const char* many) { return fmt::format("{} {}", n, n == 1 ? one : many); }
+
+/// Of all named edges, from vertex to vertex.
+std::size_t segmentsOf(const ClothMesh& mesh) {
+  std::size_t count = 0;
+  for (const MeshLine& line : mesh.lines) count += line.vertices.empty() ? 0 : line.vertices.size() - 1;
+  return count;
+}
 
 class Importer {
  public:
@@ -195,7 +202,10 @@ class Importer {
       return;
     }
     int mirrored = 0;
+    const std::size_t named = segmentsOf(mesh());
     mesh() = islandsOf(mesh(), fit.scale_m, mirrored);
+    drop(static_cast<int>(named - segmentsOf(mesh())), "piece of a named edge that lies on no panel",
+         "pieces of named edges that lie on no panel");
     note(fmt::format("uv is a flat shape of the cloth: a 1 of it is {:.6g} m, by least squares; {}", fit.scale_m,
                      words));
     if (mirrored > 0)

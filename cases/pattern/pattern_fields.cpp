@@ -3,10 +3,12 @@
 #include "cases/pattern/pattern_fields.hpp"
 
 #include <numbers>
+#include <type_traits>
 
 #include "cases/input/message.hpp"
 #include "cases/input/table.hpp"
 #include "cases/pattern/pattern_file.hpp"
+#include "cases/pattern/seam_edits.hpp"
 #include "tryon/pattern/flat/regions.hpp"
 
 namespace gambeson::schema {
@@ -212,46 +214,92 @@ Object panelTable() {
   return table.build();
 }
 
+/// What a seam of a file says, or an edit of one: that has values where it says something.
+template <class S>
+void addSeamFields(Table<S>& table) {
+  constexpr bool edits = std::is_same_v<S, SeamEdit>;
+  const auto otherwise = [&] {
+    if constexpr (edits)
+      table.defaultsTo("as it is in the pattern's file");
+    else
+      table.unwritten();
+  };
+  table.choice("use", &S::use,
+               std::vector<std::pair<std::string, SeamUse>>{
+                   {"sewn", SeamUse::sewn}, {"dart", SeamUse::dart}, {"opening", SeamUse::opening}},
+               "dart: of one panel; opening: it may be open (zip, buttons, lacing)");
+  otherwise();
+  const char* const open = "of an opening: it is worn open, and nothing holds it but its buttons";
+  if constexpr (edits)
+    table.custom(
+        fieldOf("open", Kind::boolean, "", any(), open), [](const Entry& p, S& s) { s.open = readBoolean(p); },
+        [](const S& s) { return s.open ? std::optional(nodeOf(*s.open)) : std::nullopt; });
+  else
+    table.flag("open", &S::open, open);
+  otherwise();
+  table.integer("buttons", &S::buttons, 0, 100,
+                "that hold an open seam, each 1 cm of it (a cell, where that is longer): evenly spaced, the first and "
+                "the last half a space from its ends");
+  otherwise();
+  table.number("stiffness", &S::stiffness_N, "N", between(0, 1e3),
+               "rotational spring along it [N m/(m rad)]: pressed open, topstitched");
+  otherwise();
+  table.number("rest_angle", &S::rest_angle_rad, "rad", between(-std::numbers::pi, std::numbers::pi),
+               "of that spring; 0: both sides side by side in one plane");
+  otherwise();
+}
+
 Object seamTable() {
   using S = SeamInput;
   Table<S> table("Seam of a pattern");
   table.text("name", &S::name, "what pages call it");
   table
       .texts("a", &S::a,
-             "one side: edges, one after the other, as \"front.3\", \"front.3 reversed\" or \"front.3 from 0.25 to "
-             "1\" (panel, number of the edge, fractions of its length)")
+             "one side: edges, one after the other, as \"front.3\", \"front.hem\", \"front.3 reversed\" or \"front.3 "
+             "from 0.25 to 1\" (panel, number of the edge or its name, fractions of its length)")
       .required();
   table.texts("b", &S::b, "the other side: points at equal fractions of the length of both come together").required();
-  table
-      .choice("use", &S::use,
-              std::vector<std::pair<std::string, SeamUse>>{
-                  {"sewn", SeamUse::sewn}, {"dart", SeamUse::dart}, {"opening", SeamUse::opening}},
-              "dart: of one panel; opening: it may be open (zip, buttons, lacing)")
-      .unwritten();
-  table.flag("open", &S::open, "of an opening: it is worn open, and nothing holds it but its buttons").unwritten();
-  table
-      .integer("buttons", &S::buttons, 0, 100,
-               "that hold an open seam, each 1 cm of it (a cell, where that is longer): evenly spaced, the first and "
-               "the last half a space from its ends")
-      .unwritten();
-  table
-      .number("stiffness", &S::stiffness_N, "N", between(0, 1e3),
-              "rotational spring along it [N m/(m rad)]: pressed open, topstitched")
-      .unwritten();
-  table
-      .number("rest_angle", &S::rest_angle_rad, "rad", between(-std::numbers::pi, std::numbers::pi),
-              "of that spring; 0: both sides side by side in one plane")
-      .unwritten();
+  addSeamFields(table);
   table.flag("proposed", &S::proposed, "guessed from lengths and notches; take this away where it is right")
       .unwritten();
-  table.check([](const Entry& p, const S& s) {
-    if (s.open && s.use != SeamUse::opening)
-      p.failAt("open", "is of a seam that can be opened; allowed: with \"use\": \"opening\"");
-    if (s.buttons > 0 && !s.open) p.failAt("buttons", "hold a seam that is open; allowed: with \"open\": true");
-    if (s.open && s.stiffness_N > 0)
-      p.failAt("stiffness", "is of a seam that is sewn; allowed: 0, or without \"open\"");
-    if (s.rest_angle_rad != 0 && !(s.stiffness_N > 0))
-      p.failAt("rest_angle", "is of a spring; allowed: with a stiffness above 0");
+  return table.build();
+}
+
+Object makeSeamEditTable() {
+  using E = SeamEdit;
+  Table<E> table("Edit of a pattern's seam");
+  table
+      .text("seam", &E::seam,
+            "of the pattern's seams the one that is changed, by its name or by an edge that is sewn in it "
+            "(\"front.3\", \"front.hem\"); with a and b the name of a new one")
+      .required();
+  table.flag("remove", &E::remove, "it is not sewn at all").unwritten();
+  table
+      .texts(
+          "a", &E::a,
+          "one side of a new seam, as in a pattern's file: \"front.3\", \"front.3 reversed\", \"front.3 from 0.25 to "
+          "1\"")
+      .defaultsTo("none: the seam is one of the pattern's file");
+  table.texts("b", &E::b, "its other side").defaultsTo("none");
+  addSeamFields(table);
+  table.check([](const Entry& p, const E& e) {
+    if (e.a.empty() != e.b.empty())
+      p.failAt(e.a.empty() ? "b" : "a", "is one side of a new seam; allowed: both a and b, or neither");
+    bool says = e.remove;
+    for (const auto& [key, given] :
+         std::initializer_list<std::pair<const char*, bool>>{{"a", !e.a.empty()},
+                                                             {"use", e.use.has_value()},
+                                                             {"open", e.open.has_value()},
+                                                             {"buttons", e.buttons.has_value()},
+                                                             {"stiffness", e.stiffness_N.has_value()},
+                                                             {"rest_angle", e.rest_angle_rad.has_value()}}) {
+      if (e.remove && given) p.failAt(key, "has no meaning for a seam that is taken away; allowed: without \"remove\"");
+      says = says || given;
+    }
+    if (!says)
+      p.fail(
+          "changes nothing; allowed: \"remove\": true, use, open, buttons, stiffness, rest_angle, or a and b of a new "
+          "seam");
   });
   return table.build();
 }
@@ -295,6 +343,11 @@ Object makePatternTable() {
 }
 
 }  // namespace
+
+const Object& seamEditTable() {
+  static const Object table = makeSeamEditTable();
+  return table;
+}
 
 const Object& patternTable() {
   static const Object table = makePatternTable();

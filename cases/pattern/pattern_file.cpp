@@ -1,69 +1,23 @@
 #include "cases/pattern/pattern_file.hpp"
 
-#include <fmt/format.h>
-
-#include <charconv>
-#include <cmath>
-#include <numbers>
-
 #include "cases/input/wrong_entry.hpp"
 #include "cases/pattern/pattern_fields.hpp"
+#include "cases/pattern/seam_text.hpp"
 #include "core/error.hpp"
 #include "tryon/pattern/flat/panel_check.hpp"
 
 namespace gambeson {
 namespace {
 
-bool toNumber(std::string_view text, double& x) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), x);
-  return error == std::errc() && end == text.data() + text.size() && std::isfinite(x);
-}
-
-/// What stands before the last `word`, which stays out of both.
-bool cut(std::string_view& text, std::string_view word, std::string_view& after) {
-  const std::size_t at = text.rfind(word);
-  if (at == std::string_view::npos) return false;
-  after = text.substr(at + word.size());
-  text = text.substr(0, at);
-  return true;
-}
-
-SeamPart readPart(const schema::Entry& p, std::string_view text, const std::vector<Panel>& panels) {
-  const std::string whole(text);
-  const auto fail = [&](const std::string& reason) { p.fail("\"" + whole + "\" " + reason); };
-  SeamPart part;
-  if (std::string_view rest = text, nothing; rest.ends_with(" reversed") && cut(rest, " reversed", nothing)) {
-    text = rest;
-    std::swap(part.from, part.to);
-  } else {
-    std::string_view to, from;
-    rest = text;
-    if (cut(rest, " to ", to) && cut(rest, " from ", from) && toNumber(to, part.to) && toNumber(from, part.from))
-      text = rest;
-  }
-  std::string_view number, name = text;
-  double edge = -1;
-  if (!cut(name, ".", number) || !toNumber(number, edge) || edge != std::floor(edge) || !(edge >= 0 && edge < 1e6))
-    fail("names no edge; allowed: PANEL.EDGE, as \"front.3\", \"front.3 reversed\" or \"front.3 from 0.25 to 1\"");
-  part.edge = static_cast<int>(edge);
-  std::vector<std::string> names;
-  for (const Panel& q : panels) {
-    if (q.name == name) {
-      part.panel = static_cast<int>(names.size());
-      return part;
-    }
-    names.push_back(q.name);
-  }
-  const std::string near = schema::closest(name, names);
-  fail("names no panel of this file" + (near.empty() ? std::string() : "; did you mean \"" + near + "\"?"));
-  return part;
-}
-
 std::vector<SeamPart> readSide(const schema::Entry& seam, const char* key, const std::vector<std::string>& texts,
                                const std::vector<Panel>& panels) {
   std::vector<SeamPart> out;
   const schema::Entry side = seam.member(*seam.node.find(key));
-  for (std::size_t k = 0; k < texts.size(); ++k) out.push_back(readPart(side.item(k), texts[k], panels));
+  for (std::size_t k = 0; k < texts.size(); ++k) try {
+      out.push_back(partOf(texts[k], panels));
+    } catch (const InputError& e) {
+      side.item(k).fail(e.reason());
+    }
   return out;
 }
 
@@ -99,13 +53,6 @@ void write(const JsonNode& node, std::size_t indent, std::string& out) {
 }
 
 }  // namespace
-
-std::string partText(const FlatPattern& pattern, const SeamPart& part) {
-  const std::string edge = fmt::format("{}.{}", pattern.panels[static_cast<std::size_t>(part.panel)].name, part.edge);
-  if (part.from == 0 && part.to == 1) return edge;
-  if (part.from == 1 && part.to == 0) return edge + " reversed";
-  return fmt::format("{} from {} to {}", edge, part.from, part.to);
-}
 
 bool isPattern(const JsonNode& root) {
   const JsonNode* format = root.type == JsonNode::Type::object ? root.find("format") : nullptr;

@@ -27,9 +27,6 @@ JsonNode patternNode(const FlatPattern& pattern);
 /// Text of a file that is read back to the bit.
 std::string patternText(const FlatPattern& pattern);
 
-/// "front.3", "front.3 reversed", "front.3 from 0.25 to 1": how files and pages call a part of an edge.
-std::string partText(const FlatPattern& pattern, const SeamPart& part);
-
 /// How large such a file may be.
 inline constexpr std::size_t kPatternBytes = 32u << 20;
 

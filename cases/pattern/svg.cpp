@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "cases/pattern/pattern_file.hpp"
+#include "cases/pattern/seam_text.hpp"
 #include "cases/pattern/svg_path.hpp"
 #include "tryon/pattern/flat/panel_geometry.hpp"
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "core/math/vec.hpp"
+
 namespace gambeson {
 
 enum class Side { u0, u1, v0, v1 };
@@ -15,10 +17,19 @@ struct PatchEdge {
   bool reversed = false;
 };
 
-/// Edges that supports and studies call by one name.
+/// A place of a patch, in its parameters.
+struct EdgePlace {
+  int patch = 0;
+  Vec2 uv;
+};
+
+/// Edges that supports and studies call by one name: sides of patches, or lines across the cells of panels.
 struct NamedEdge {
   std::string name;
   std::vector<PatchEdge> edges;
+  /// Of what is no side of a patch but a part of its border: places all along it, several in each cell; each line is of
+  /// one patch.
+  std::vector<std::vector<EdgePlace>> lines{};
 };
 
 /// "edge v0 of patch 2", for messages.

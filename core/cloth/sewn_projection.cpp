@@ -98,7 +98,9 @@ void SewnProjection::gaps(std::span<const Vec3> x, std::vector<Vec3>& g) const {
   C_.multiply<Vec3>(x, g);
 }
 
-void SewnProjection::takeOff(std::span<Vec3> v, std::span<Vec3> impulse, Work& w) const {
+void SewnProjection::takeOff(std::span<Vec3> v, std::span<Vec3> impulse, std::span<const char> open, Work& w) const {
+  for (std::size_t k = 0; k < open.size(); ++k)
+    if (open[k]) w.lambda[k] = {};
   factor_.solve(w.lambda, w.factor);
   w.moved.resize(points_.size());
   Ct_.multiply<Vec3>(w.lambda, w.moved);
@@ -109,17 +111,18 @@ void SewnProjection::takeOff(std::span<Vec3> v, std::span<Vec3> impulse, Work& w
   }
 }
 
-void SewnProjection::project(std::span<Vec3> v, std::span<const Vec3> rates, std::span<Vec3> impulse, Work& w) const {
+void SewnProjection::project(std::span<Vec3> v, std::span<const Vec3> rates, std::span<Vec3> impulse,
+                             std::span<const char> open, Work& w) const {
   for (int pass = 0; pass < 2; ++pass) {
     gaps(v, w.lambda);
     for (std::size_t k = 0; k < rates.size(); ++k) w.lambda[k] -= rates[k];
-    takeOff(v, impulse, w);
+    takeOff(v, impulse, open, w);
   }
 }
 
-void SewnProjection::hold(std::span<Vec3> change, Work& w) const {
+void SewnProjection::hold(std::span<Vec3> change, std::span<const char> open, Work& w) const {
   gaps(change, w.lambda);
-  takeOff(change, {}, w);
+  takeOff(change, {}, open, w);
 }
 
 std::vector<Vec3> closeSeams(const SewnRows& rows, std::span<const double> weight, std::span<const Vec3> q) {

@@ -34,12 +34,18 @@ class SewnProjection {
   void gaps(std::span<const Vec3> x, std::vector<Vec3>& g) const;
   /// Projects v; `rates` r of the rows, empty: 0. Adds the impulses - C^T lambda on all points, held ones too, to
   /// `impulse` where that is not empty. Twice, so that what rounding has left of the rows is taken as well.
-  void project(std::span<Vec3> v, std::span<const Vec3> rates, std::span<Vec3> impulse, Work& work) const;
+  void project(std::span<Vec3> v, std::span<const Vec3> rates, std::span<Vec3> impulse, Work& work) const {
+    project(v, rates, impulse, {}, work);
+  }
+  /// The same of rows that are not `open`, one flag each (empty: none is). Those that are share no points with others.
+  void project(std::span<Vec3> v, std::span<const Vec3> rates, std::span<Vec3> impulse, std::span<const char> open,
+               Work& work) const;
   /// Once, without rates: W i in, what is left of it out.
-  void hold(std::span<Vec3> change, Work& work) const;
+  void hold(std::span<Vec3> change, std::span<const char> open, Work& work) const;
+  void hold(std::span<Vec3> change, Work& work) const { hold(change, {}, work); }
 
  private:
-  void takeOff(std::span<Vec3> v, std::span<Vec3> impulse, Work& work) const;
+  void takeOff(std::span<Vec3> v, std::span<Vec3> impulse, std::span<const char> open, Work& work) const;
 
   SparseRows C_, Ct_;  ///< Ct: of `points` alone
   std::vector<int> points_;

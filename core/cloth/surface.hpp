@@ -2,6 +2,7 @@
 /// Surface samples: all that contact, pictures and analysis see of a cloth.
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "core/cloth/patch_edge.hpp"
@@ -50,5 +51,7 @@ struct PlaceMesh {
 std::vector<int> gridEdge(int nu, int nv, const PatchEdge& edge);
 /// The samples along an edge, in the edge's sense; of a trimmed patch those on what is left of it.
 std::vector<int> edgeSamples(const Surface& surface, const PatchEdge& edge);
+/// The samples of the surface's border that lie on a line of places (NamedEdge::lines), in its sense.
+std::vector<int> lineSamples(const Surface& surface, std::span<const EdgePlace> line);
 
 }  // namespace gambeson

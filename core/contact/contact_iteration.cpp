@@ -7,7 +7,6 @@
 
 #include "core/contact/held_iteration.hpp"
 #include "core/contact/iteration_lanes.hpp"
-#include "core/contact/projecting_hold.hpp"
 
 namespace gambeson {
 namespace {
@@ -171,7 +170,7 @@ Vec3 slipOf(const ContactWork& w, int row) {
 
 void iterate(double goal, int last, int most, ContactWork& w) {
   const SweepLimits limits{goal, last, most - most / 4};
-  if (dynamic_cast<const ProjectingHold*>(w.hold)) {
+  if (w.hold && w.hold->projects()) {
     for (Island& island : w.islands) iterateIsland(limits, island, w, Held{});
     return;
   }

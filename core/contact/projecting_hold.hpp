@@ -11,6 +11,7 @@ namespace gambeson {
 class ProjectingHold : public MotionHold {
  public:
   bool bearsTension() const override { return false; }
+  bool projects() const override { return true; }
 };
 
 }  // namespace gambeson

@@ -113,6 +113,8 @@ class MotionHold {
   virtual ~MotionHold() = default;
   /// Whether it bears tensions far beyond the impulses that stop cloth (solveContacts).
   virtual bool bearsTension() const { return true; }
+  /// Whether it is a ProjectingHold, with which sweeps over the rows alternate.
+  virtual bool projects() const { return false; }
   /// `change`: of all free points, M^-1 i in, P i out.
   virtual void hold(std::span<Vec3> change) const = 0;
   /// The same where impulses act on some points alone and only their changes matter: sets which (free points), and

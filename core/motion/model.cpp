@@ -138,6 +138,14 @@ void addSewing(const ModelOptions& options, Model& m) {
   m.sewn_pairs = multiply(sewn.pairs, T);
   m.sewn_cell_m = sewn.cell_m;
   m.sewing = SewnProjection(multiply(sewn.C, T), m.inverse_mass);
+  for (int k = 0; k < sewn.rows(); ++k) {
+    const int point = sewn.C.columns[sewn.C.offsets[k]];
+    for (const ClothPatch& patch : m.cloth->patches())
+      if (point >= patch.first_point && point < patch.end_point) {
+        m.sewn_garment.push_back(patch.garment);
+        break;
+      }
+  }
 }
 
 }  // namespace

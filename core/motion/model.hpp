@@ -100,9 +100,10 @@ struct Model {
   std::vector<Vec3> dead_force_N;  ///< constant forces of the free points; empty where there are none
   StrainLimit strain_limit;
   StrainRows strain_rows;  ///< without points where strain is not limited
-  SewnProjection sewing;  ///< of the free points; empty: no seams are projected
+  SewnProjection sewing;   ///< of the free points; empty: no seams are projected
   SewingOptions sewing_options;
-  SparseRows sewn_pairs;  ///< SewnRows::pairs of the free points
+  std::vector<int> sewn_garment;  ///< of each row of `sewing`
+  SparseRows sewn_pairs;          ///< SewnRows::pairs of the free points
   std::vector<double> sewn_cell_m;
   std::vector<NetEdge> net;
   std::vector<Stitch> stitches;
@@ -302,6 +303,7 @@ struct StepScratch {
   LimitWork limit;
   SewnProjection::Work sewn;
   std::vector<Vec3> sewn_rates, sewn_force, sewn_part, sewn_right;
+  std::vector<char> sewn_open;  ///< of each row of Model::sewing, whether its garment's seams are far open
   /// What seams give all free points, held ones too, where they close, and with what they give under contact [N s].
   std::vector<Vec3> sewn_closing, sewn_impulse;
   StageWork stage;

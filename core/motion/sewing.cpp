@@ -4,24 +4,47 @@
 #include <cmath>
 
 namespace gambeson {
+namespace {
+
+std::size_t garmentsOf(const Model& m) {
+  return static_cast<std::size_t>(*std::max_element(m.sewn_garment.begin(), m.sewn_garment.end())) + 1;
+}
+
+}  // namespace
 
 void closingRates(const Model& m, std::span<const Vec3> p, double dt, StepScratch& w) {
   m.sewing.gaps(p, w.sewn_rates);
-  double widest = 0;
-  for (const Vec3& g : w.sewn_rates) widest = std::max(widest, norm(g));
-  double rate = std::min(m.sewing_options.close_per_s, 1 / dt);
-  if (rate * widest > m.sewing_options.close_m_per_s) rate = m.sewing_options.close_m_per_s / widest;
-  for (Vec3& g : w.sewn_rates) g *= -rate;
+  std::vector<double> rate(garmentsOf(m), 0.0);  // first the widest gap
+  for (std::size_t k = 0; k < w.sewn_rates.size(); ++k) {
+    double& widest = rate[static_cast<std::size_t>(m.sewn_garment[k])];
+    widest = std::max(widest, norm(w.sewn_rates[k]));
+  }
+  for (double& r : rate) {
+    const double widest = r;
+    r = std::min(m.sewing_options.close_per_s, 1 / dt);
+    if (r * widest > m.sewing_options.close_m_per_s) r = m.sewing_options.close_m_per_s / widest;
+  }
+  for (std::size_t k = 0; k < w.sewn_rates.size(); ++k)
+    w.sewn_rates[k] *= -rate[static_cast<std::size_t>(m.sewn_garment[k])];
 }
 
-bool seamsAreOpen(const Model& m, const StepScratch& w) {
+void findOpenSeams(const Model& m, StepScratch& w) {
   const double fast = (1 - 1e-9) * m.sewing_options.close_m_per_s;
-  return std::any_of(w.sewn_rates.begin(), w.sewn_rates.end(), [&](const Vec3& r) { return norm(r) >= fast; });
+  std::vector<char> open(garmentsOf(m), 0);
+  for (std::size_t k = 0; k < w.sewn_rates.size(); ++k)
+    if (norm(w.sewn_rates[k]) >= fast) open[static_cast<std::size_t>(m.sewn_garment[k])] = 1;
+  w.sewn_open.clear();
+  for (const int garment : m.sewn_garment) w.sewn_open.push_back(open[static_cast<std::size_t>(garment)]);
+}
+
+bool someSeamsHold(const StepScratch& w) {
+  return std::any_of(w.sewn_open.begin(), w.sewn_open.end(), [](char open) { return !open; });
 }
 
 void sewVelocities(const Model& m, std::span<const Vec3> p, double dt, StepWork& w) {
   w.sewn_closing.assign(static_cast<std::size_t>(m.freeCount()), Vec3{});
   closingRates(m, p, dt, w);
+  findOpenSeams(m, w);
   m.sewing.project(w.predictor, w.sewn_rates, w.sewn_closing, w.sewn);
 }
 
@@ -64,15 +87,17 @@ std::span<const Vec3> sewAccelerations(const Model& m, double h, std::span<Vec3>
 void addSeamsUnderContact(const Model& m, std::span<const Vec3> impulses, StepWork& w) {
   w.sewn_part.assign(impulses.begin(), impulses.end());
   for (std::size_t i = 0; i < w.sewn_part.size(); ++i) w.sewn_part[i] *= m.inverse_mass[i];
-  m.sewing.project(w.sewn_part, {}, w.sewn_impulse, w.sewn);
+  m.sewing.project(w.sewn_part, {}, w.sewn_impulse, w.sewn_open, w.sewn);
 }
 
-double sewingWork(const Model& m, double dt, std::span<const Vec3> foreseen, const StepWork& w) {
+double sewingWork(const Model& m, double dt, std::span<const Vec3> foreseen, std::span<const Vec3> from,
+                  std::span<const Vec3> to, const StepWork& w) {
   double work = 0;
   for (const int i : m.sewing.points()) {
-    if (m.inverse_mass[i] == 0) continue;
     const Vec3& impulse = w.sewn_closing[i];
-    work += dot(impulse, w.predictor[i] - (0.5 * m.inverse_mass[i]) * impulse - (0.5 * dt) * foreseen[i]);
+    work += m.inverse_mass[i] == 0
+                ? dot(impulse, to[i] - from[i]) / dt
+                : dot(impulse, w.predictor[i] - (0.5 * m.inverse_mass[i]) * impulse - (0.5 * dt) * foreseen[i]);
   }
   return work;
 }
@@ -97,7 +122,7 @@ void SewnHold::holdTouched(std::span<Vec3> change) const {
   const auto at = [&](int k) -> Vec3& { return all_[static_cast<std::size_t>(points_[static_cast<std::size_t>(k)])]; };
   for (const int i : model_.sewing.points()) all_[static_cast<std::size_t>(i)] = {};
   for (const int k : sewn_) at(k) = change[static_cast<std::size_t>(k)];
-  model_.sewing.hold(all_, work_);
+  model_.sewing.hold(all_, open_, work_);
   for (const int k : sewn_) change[static_cast<std::size_t>(k)] = at(k);
 }
 

@@ -181,13 +181,13 @@ void auditHeldMotion(const Model& m, const StepEnds& e, StepReport& report, Step
 void auditSewing(const Model& m, const StepEnds& e, double dt, StepReport& report, StepWork& w) {
   constexpr double kCloses_m_per_s = 1e-4;
   const State &in = e.in, &out = e.out;
-  report.work.supports += sewingWork(m, dt, in.a, w);
+  report.work.supports += sewingWork(m, dt, in.a, in.p, out.p, w);
   for (const int i : m.sewing.points()) report.work.supports += dot(w.sewn_force[i], out.p[i] - in.p[i]);
   const bool closes = std::any_of(w.sewn_rates.begin(), w.sewn_rates.end(),
                                   [](const Vec3& rate) { return norm(rate) > kCloses_m_per_s; });
   w.sewn_impulse = w.sewn_closing;
   for (const Vec3& impulse : w.sewn_impulse) report.momentum.scale += norm(impulse);
-  if (!w.rows.empty() && (closes || !m.held_points.empty()) && !seamsAreOpen(m, w)) {
+  if (!w.rows.empty() && (closes || !m.held_points.empty()) && someSeamsHold(w)) {
     std::vector<Vec3> impulses(static_cast<std::size_t>(m.freeCount()));
     contactImpulses(m, w, impulses);
     addSeamsUnderContact(m, impulses, w);

@@ -101,7 +101,7 @@ void solveRows(const Model& m, double dt, MotionHold* limits, Yield& yield, Step
     for (ContactRow& row : w.rows) row.fixed = !(givesWay(m, row, scratch) > kNothing);
   }
   std::optional<SewnHold> sewn;
-  if (!m.sewing.empty() && !seamsAreOpen(m, w) && contactsMeetSeams(m, w.rows)) hold = &sewn.emplace(m);
+  if (!m.sewing.empty() && someSeamsHold(w) && contactsMeetSeams(m, w.rows)) hold = &sewn.emplace(m, w.sewn_open);
   const auto solve = [&](std::span<const ContactRow> rows) {
     return solveContacts(rows, m.surface.WT, m.inverse_mass, m.surface.area_m2, m.density_kg_per_m2, m.place, m.contact,
                          dt, w.velocity, w.warm, w.impulses, w.contact, hold, w.slip);

@@ -252,7 +252,7 @@ void pressingAccelerations(const Model& m, double dt, StepWork& w, std::vector<V
   m.surface.WTt.multiply<Vec3>(w.sample_pressing, pressed);
   for (int i = 0; i < m.freeCount(); ++i) pressed[i] *= m.inverse_mass[i] / dt;
   if (m.supports) m.supports->hold(pressed);
-  if (!m.sewing.empty() && !seamsAreOpen(m, w)) m.sewing.hold(pressed, w.sewn);
+  if (!m.sewing.empty() && someSeamsHold(w)) m.sewing.hold(pressed, w.sewn_open, w.sewn);
 }
 
 void contactImpulses(const Model& m, StepWork& w, std::vector<Vec3>& impulses) {

@@ -61,6 +61,16 @@ def summary(folder):
     return json.loads((folder / "summary.json").read_text())
 
 
+def sound(done, out, what):
+    """The summary of a run that ended well: all its checks hold, no cloth crosses."""
+    check(done.returncode == 0, f"{what} gave {done.returncode}: {done.stderr}")
+    numbers = summary(out)
+    failed = [c for c in numbers["audit"] if not c["holds"]]
+    check(not failed, f"checks of {what}: {failed}")
+    check(numbers["collisions"]["most_intersections"] == 0, f"{what} crosses: {numbers['collisions']}")
+    return numbers
+
+
 def results(folder):
     """Everything that must not depend on threads or interruptions: name -> content."""
     content = {}

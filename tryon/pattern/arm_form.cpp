@@ -25,14 +25,22 @@ std::vector<Vec2> grown(const std::vector<Vec2>& points, double factor, const Ve
 
 }  // namespace
 
+ArmAxes armAxes(const Vec3& up) {
+  // Raised forward x by the least rotation that takes z to it; elsewhere x as near as it can stay.
+  const Vec3 x{1, 0, 0}, z{0, 0, 1};
+  const bool along_x = std::abs(up.x) > 0.5;
+  const Vec3 forward = normalized(along_x ? x - (up.x / (1 + up.z)) * (up + z) : x - up.x * up);
+  return {forward, cross(up, forward), up};
+}
+
 ArmForm::ArmForm(const BodyForm& form, const SleeveFit& fit, std::span<const Worn> under) {
   const Links arm = form.links({"upper_arm_left", "forearm_left", "hand_left"}, kGarment);
   const Vec3 shoulder = form.origin(arm[0]), elbow = form.origin(arm[1]), wrist = form.origin(arm[2]);
   const double length = norm(shoulder - wrist);
   if (!(length > 0)) throw InputError({"", 0, kGarment}, "needs a human whose arms have a length");
   const Vec3 up = (shoulder - wrist) / length;
-  const Vec3 forward = normalized(Vec3{1, 0, 0} - up.x * up), outward = cross(up, forward);
-  X_AW_ = inverse(Pose{{forward, outward, up}, shoulder});
+  const ArmAxes axes = armAxes(up);
+  X_AW_ = inverse(Pose{{axes.forward, axes.left, up}, shoulder});
   elbow_ = (X_AW_ * elbow).z;
   hem_ = -fit.length_m;
   if (!(fit.length_m < length))

@@ -9,6 +9,13 @@
 
 namespace gambeson {
 
+/// Axes of an arm along `up`, a unit vector from the wrist to the shoulder: those of one that hangs are x, y, z of the
+/// world, and go with it where it is raised, sideways or forward.
+struct ArmAxes {
+  Vec3 forward, left, up;
+};
+ArmAxes armAxes(const Vec3& up);
+
 /// How a sleeve is cut around the arm.
 struct SleeveFit {
   double length_m = 0;             ///< from the shoulder joint to the hem, along the arm

@@ -5,7 +5,6 @@
 
 #include "core/error.hpp"
 #include "human/body/skin.hpp"
-#include "human/motion/motion.hpp"
 #include "human/motion/standing.hpp"
 
 namespace gambeson {
@@ -27,9 +26,10 @@ Placement turned(const Placement& X, double lean) {
 
 }  // namespace
 
-BodyForm::BodyForm(const Human& human) : human_(human) {
+BodyForm::BodyForm(const Human& human) : BodyForm(human, human.shapes.empty() ? Posture{} : standing(human)) {}
+
+BodyForm::BodyForm(const Human& human, const Posture& posture) : human_(human) {
   if (human.shapes.empty()) return;  // no surface: links() names what is missing, or hull()
-  const Posture posture = standing(human);
   const std::vector<Pose> links = linkPoses(human.skeleton, posture.q, posture.root);
   for (const Pose& X : links) origin_.push_back(X.origin);
   placements_ = placementsOf(human, links);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "human/body/body.hpp"
+#include "human/motion/motion.hpp"
 #include "tryon/pattern/wrap.hpp"
 
 namespace gambeson {
@@ -23,6 +24,8 @@ class BodyForm {
  public:
   /// The skin of a human who stands (human/motion/motion.hpp), or the shapes of one without. `human` outlives the form.
   explicit BodyForm(const Human& human);
+  /// The same in another posture.
+  BodyForm(const Human& human, const Posture& posture);
   /// A closed skin of the standing human in the world; `segment` is the link of each vertex. A triangle belongs to a
   /// link only with all its vertices, so that cross-sections of the trunk end where arms begin.
   BodyForm(const Human& human, TriangleMesh skin, std::vector<int> segment);
@@ -47,6 +50,9 @@ class BodyForm {
   /// Where a link's frame stands (the joint that carries it).
   const Vec3& origin(int link) const { return origin_[link]; }
   double medianY() const { return median_y_; }
+  /// The skin as it stands, and how the shapes do.
+  const TriangleMesh& skin() const { return skin_; }
+  const std::vector<Placement>& placements() const { return placements_; }
 
  private:
   /// A level, or a profile where a lean is given.

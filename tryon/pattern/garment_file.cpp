@@ -288,12 +288,15 @@ void writeGarment(const Garment& g, const std::filesystem::path& path) {
     out << "}";
   }
   out << "]";
-  for (std::size_t n = 0; n < g.edges.size(); ++n) {
-    out << (n ? ",\n" : ",\n \"edges\": [\n") << "  {\"name\": " << Json(g.edges[n].name).dump() << ", \"of\": [";
-    for (std::size_t k = 0; k < g.edges[n].edges.size(); ++k) out << (k ? ", " : "") << edge(g.edges[n].edges[k]);
+  bool first = true;
+  for (const NamedEdge& named : g.edges) {
+    if (named.edges.empty()) continue;  // of a panel
+    out << (first ? ",\n \"edges\": [\n" : ",\n") << "  {\"name\": " << Json(named.name).dump() << ", \"of\": [";
+    for (std::size_t k = 0; k < named.edges.size(); ++k) out << (k ? ", " : "") << edge(named.edges[k]);
     out << "]}";
+    first = false;
   }
-  out << (g.edges.empty() ? "}\n" : "]}\n");
+  out << (first ? "}\n" : "]}\n");
   writeOwnFile(path, out.str());
 }
 

@@ -34,6 +34,7 @@
 #include "human/scan/scan.hpp"
 #include "human/skin/make_skin.hpp"
 #include "tryon/pattern/armour.hpp"
+#include "tryon/pattern/flat/seam_edit.hpp"
 #include "tryon/pattern/trousers.hpp"
 
 namespace gambeson {
@@ -109,7 +110,8 @@ struct PatternGarment {
   std::filesystem::path path;
   double cell_m = 0.02;
   int degree = 2;
-  double close_within_s = 5;  ///< by then its seams are closed
+  double close_within_s = 5;    ///< by then its seams are closed
+  std::vector<SeamEdit> seams;  ///< that are otherwise than the file has them
 };
 
 /// Virtual stitching, Zheng 2013, section 6.3: the panels start apart, and springs along the seams close them.
@@ -215,9 +217,9 @@ struct PinnedSupport : HeldSupport {
 /// All points of a patch held.
 struct PatchSupport : HeldSupport {};
 
-/// A cord along an edge that is drawn tight, as a belt or a drawstring is: neighbouring samples attract each other, with
-/// `tension_N` where they are as far apart as at rest and in proportion to their distance, so the cord has no length of
-/// its own. It is drawn in `draw_s`, further at the end of each window.
+/// A cord along an edge that is drawn tight, as a belt or a drawstring is: neighbouring samples attract each other,
+/// with `tension_N` where they are as far apart as at rest and in proportion to their distance, so the cord has no
+/// length of its own. It is drawn in `draw_s`, further at the end of each window.
 struct CordSupport {
   EdgeCase edge;
   double tension_N = 30;

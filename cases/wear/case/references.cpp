@@ -71,6 +71,15 @@ void checkPictures(const Entry& root, const Case& c, double duration_s) {
   }
 }
 
+/// Those of its panel ("front.hem", "front.3"), where the name begins with one; else all.
+std::vector<std::string> alike(const std::string& name, const std::vector<std::string>& names) {
+  const std::string panel = name.substr(0, name.rfind('.') + 1);
+  std::vector<std::string> out;
+  for (const std::string& other : names)
+    if (other.starts_with(panel)) out.push_back(other);
+  return out.empty() ? names : out;
+}
+
 /// What supports name of a garment with these patches and edges.
 void checkSupportsOf(const Entry& root, const Case& c, const GarmentCase& garment, int patches,
                      const std::vector<std::string>& names) {
@@ -81,33 +90,12 @@ void checkSupportsOf(const Entry& root, const Case& c, const GarmentCase& garmen
     const Entry kind = support.member(support.node.children.front());
     if (!edge.name.empty() && std::find(names.begin(), names.end(), edge.name) == names.end())
       kind.failAt("edge", fmt::format("\"{}\" is not an edge of this garment; allowed: {}patch and side, such as 2.u0",
-                                      edge.name, names.empty() ? "" : joined(names) + ", or "));
+                                      edge.name, names.empty() ? "" : joined(alike(edge.name, names)) + ", or "));
     if (edge.patch < patches) continue;
     kind.failAt(kind.node.find("edge") ? "edge" : "patch",
                 fmt::format("there is no patch {}; allowed: 0 to {}", edge.patch, patches - 1));
   }
 }
-
-/// A garment's file, and the patches of it that supports name.
-void checkGarmentFile(const Entry& root, const Case& c, const GarmentCase& garment) {
-  Garment read = kindOf(garment).look(garment);
-  try {
-    applyFields(garment.fields, read);
-  } catch (const InputError& e) {
-    const std::size_t i = std::stoul(e.where().key.substr(std::string("fields[").size()));
-    const JsonNode* list = root.node.find("garments");
-    const auto k = static_cast<std::size_t>(&garment - c.garments.data());
-    const Entry entry = list ? root.member(*list).item(k) : root.member(*root.node.find("garment"));
-    listItem(entry, "fields", i).failAt("patch", e.reason());
-  }
-  std::vector<std::string> names;
-  for (const NamedEdge& e : read.edges) names.push_back(e.name);
-  checkSupportsOf(root, c, garment, static_cast<int>(read.patches.size()), names);
-}
-
-}  // namespace
-
-namespace {
 
 /// Runs f; what turns out to be wrong is said where the key stands.
 template <class F>
@@ -115,8 +103,27 @@ auto locatedAt(const Entry& root, const std::string& key, F&& f) {
   try {
     return underKey(key, f);
   } catch (const InputError& e) {
+    if (!e.where().file.empty()) throw;  // as it is, with all that is wrong there
     sayAt(root, e);
   }
+}
+
+/// A garment's file, and the patches of it that supports name.
+void checkGarmentFile(const Entry& root, const Case& c, const GarmentCase& garment) {
+  const auto k = static_cast<std::size_t>(&garment - c.garments.data());
+  Garment read = locatedAt(root, fmt::format("garments[{}].{}", k, kindOf(garment).word),
+                           [&] { return kindOf(garment).look(garment); });
+  try {
+    applyFields(garment.fields, read);
+  } catch (const InputError& e) {
+    const std::size_t i = std::stoul(e.where().key.substr(std::string("fields[").size()));
+    const JsonNode* list = root.node.find("garments");
+    const Entry entry = list ? root.member(*list).item(k) : root.member(*root.node.find("garment"));
+    listItem(entry, "fields", i).failAt("patch", e.reason());
+  }
+  std::vector<std::string> names;
+  for (const NamedEdge& e : read.edges) names.push_back(e.name);
+  checkSupportsOf(root, c, garment, static_cast<int>(read.patches.size()), names);
 }
 
 }  // namespace

@@ -157,7 +157,8 @@ void checkSewn(const Entry& root, const Entry& entry, const Case& c, const Garme
   if (!c.human && c.garments.size() > 1)
     entry.failAt(kind.word, "is put on by itself: without a human it is the only garment");
   for (const char* key : {"stitching", "seam_stiffness"})
-    if (entry.node.find(key)) entry.failAt(key, "is for drafted garments; the file of a pattern says it of each seam");
+    if (entry.node.find(key))
+      entry.failAt(key, "is for drafted garments; a pattern says it of each seam, in its file or in pattern.seams");
   if (c.time.motion.scheme != MotionScheme::verlet)
     failAt(root, {"time", "scheme"}, "sewn seams hold in steps of velocity Verlet; allowed with a pattern: verlet");
 }

@@ -144,9 +144,11 @@ void fields(A& a, T& e) {
   auto& [patch, side, reversed] = e;
   a("patch", patch)("side", side)("reversed", reversed);
 }
+/// Lines are for supports, which are made from the case.
 template <class A, Of<NamedEdge> T>
 void fields(A& a, T& e) {
-  auto& [name, edges] = e;
+  auto& [name, edges, lines] = e;
+  static_cast<void>(lines);
   a("name", name)("edges", edges);
 }
 template <class A, Of<Seam> T>

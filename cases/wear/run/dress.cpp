@@ -8,6 +8,7 @@
 #include "cases/input/message.hpp"
 #include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/case/supports/kind.hpp"
+#include "cases/wear/scene/garments.hpp"
 #include "cases/wear/scene/worn.hpp"
 #include "core/error.hpp"
 #include "core/motion/free_steps.hpp"

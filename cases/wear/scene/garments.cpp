@@ -57,18 +57,21 @@ struct Wearer {
   std::optional<BodyForm> form;
 };
 
-GarmentMaking making(const Case& c, const GarmentCase& worn, const Wearer& w, std::span<const Worn> under) {
+GarmentMaking making(const Case& c, const GarmentCase& worn, const Wearer& w, std::span<const Worn> under,
+                     std::vector<std::string>* fit) {
   return {worn,
           fabricOf(c, worn),
           layerOf(c, worn),
           w.form ? &*w.form : nullptr,
           under,
           w.human,
-          w.human ? puttingOnPosture(c, worn, *w.human) : Posture{}};
+          w.human ? puttingOnPosture(c, worn, *w.human) : Posture{},
+          fit};
 }
 
-Garment makeGarment(const Case& c, const GarmentCase& worn, const Wearer& wearer, std::span<const Worn> under) {
-  Garment garment = kindOf(worn).make(making(c, worn, wearer, under));
+Garment makeGarment(const Case& c, const GarmentCase& worn, const Wearer& wearer, std::span<const Worn> under,
+                    std::vector<std::string>* fit = nullptr) {
+  Garment garment = kindOf(worn).make(making(c, worn, wearer, under, fit));
   for (std::size_t p = garment.patch_names.size(); p < garment.patches.size(); ++p)
     garment.patch_names.push_back("patch_" + std::to_string(p));
   addFabric(c, worn, garment);
@@ -95,9 +98,10 @@ std::string wearerOf(const HumanCase& h) {
 }
 
 /// What cannot be drafted is said with what can.
-Garment tryGarment(const Case& c, const GarmentCase& worn, const Wearer& wearer, std::span<const Worn> under) {
+Garment tryGarment(const Case& c, const GarmentCase& worn, const Wearer& wearer, std::span<const Worn> under,
+                   std::vector<std::string>* fit) {
   try {
-    return makeGarment(c, worn, wearer, under);
+    return makeGarment(c, worn, wearer, under, fit);
   } catch (const InputError& e) {
     if (!wearer.form || !c.human || !kindOf(worn).drafted || !e.where().file.empty()) throw;
     sayLargest(e, worn, wearerOf(*c.human), [&](const GarmentCase& g) { makeGarment(c, g, wearer, under); });
@@ -156,11 +160,8 @@ std::vector<Garment> draftGarments(const Case& c, const Human* human, std::vecto
     const std::string at = fmt::format("garments[{}]", k), shape = at + "." + kindOf(worn).word;
     underKey(worn.fabric ? at + ".fabric" : "fabric", [&] { checkFabric(fabricOf(c, worn), "fabric"); });
     ClothSize(size).add(kindOf(worn).cells(worn), worn.samples_per_cell, shape);
-    garments.push_back(underKey(shape, [&] { return tryGarment(c, worn, wearer, under); }));
+    garments.push_back(underKey(shape, [&] { return tryGarment(c, worn, wearer, under, fit); }));
     size.add(cellsOf(garments.back()), worn.samples_per_cell, shape);
-    if (fit)
-      for (std::string& note : underKey(shape, [&] { return kindOf(worn).fit(making(c, worn, wearer, under)); }))
-        fit->push_back(std::move(note));
     if (kindOf(worn).isMesh()) continue;
     double area = 0;
     for (const double a : underKey(shape, [&] { return controlAreas(garments.back()); })) area += a;

@@ -13,10 +13,10 @@ namespace {
 
 constexpr const char* kSides[] = {"u0", "u1", "v0", "v1"};
 
-std::vector<PatchEdge> edgesOf(const std::vector<NamedEdge>& known, const EdgeCase& e) {
-  if (e.name.empty()) return {{e.patch, e.side, false}};
+NamedEdge edgeOf(const std::vector<NamedEdge>& known, const EdgeCase& e) {
+  if (e.name.empty()) return {"", {{e.patch, e.side, false}}};
   for (const NamedEdge& edge : known)
-    if (edge.name == e.name) return edge.edges;
+    if (edge.name == e.name) return edge;
   throw InputError({"", 0, "edge"}, "the garment has no edge \"" + e.name + "\"");
 }
 
@@ -36,17 +36,23 @@ void addSupports(const Case& c, const Cloth& cloth, const std::vector<int>& firs
     const std::string name =
         of + (edge.name.empty() ? fmt::format("edge {} of patch {}", kSides[static_cast<int>(edge.side)], edge.patch)
                                 : edge.name);
-    std::vector<PatchEdge> edges;
-    if (kind.on_edge) edges = edgesOf(known[worn], edge);
-    for (PatchEdge& e : edges) {
+    SupportedCloth on{cloth, surface, human, kind.on_edge ? name : of, first[worn]};
+    if (kind.on_edge) on.edge = edgeOf(known[worn], edge);
+    for (PatchEdge& e : on.edge.edges) {
       if (e.patch >= first[worn + 1] - first[worn])
         throw InputError({"", 0, "edge"}, "patch " + std::to_string(e.patch) + " does not exist; the garment has " +
                                               std::to_string(first[worn + 1] - first[worn]));
       e.patch += first[worn];
-      for (int s : edgeSamples(surface, e))
-        if (std::find(group.samples.begin(), group.samples.end(), s) == group.samples.end()) group.samples.push_back(s);
+      on.lines.push_back(edgeSamples(surface, e));
     }
-    kind.hold(support, {cloth, surface, human, kind.on_edge ? name : of, edges, first[worn]}, options, group);
+    for (std::vector<EdgePlace>& line : on.edge.lines) {
+      for (EdgePlace& place : line) place.patch += first[worn];
+      on.lines.push_back(lineSamples(surface, line));
+    }
+    for (const std::vector<int>& line : on.lines)
+      for (const int s : line)
+        if (std::find(group.samples.begin(), group.samples.end(), s) == group.samples.end()) group.samples.push_back(s);
+    kind.hold(support, on, options, group);
     options.held_control_points.insert(options.held_control_points.end(), group.control_points.begin(),
                                        group.control_points.end());
     int motion = -1;

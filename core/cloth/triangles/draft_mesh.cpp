@@ -179,7 +179,9 @@ void joinSides(const std::vector<int>& a, const std::vector<int>& b, const std::
 MeshDraft meshDraft(const Garment& g, MeshKind kind) {
   if (!g.weak_seams.empty())
     reject("triangles need seams whose edges have equal cells; weak seams go with NURBS cloth");
-  if (!g.sewn_seams.empty()) reject("triangles are not sewn of flat panels; sewn seams go with NURBS cloth");
+  if (!g.sewn_seams.empty())
+    throw InputError({"", 0, "model"},
+                     "cloth of triangles is not sewn of flat panels; allowed with sewn seams: \"nurbs\"");
   validateFields(g);
   MeshDraft out;
   ClothMesh& mesh = out.mesh;

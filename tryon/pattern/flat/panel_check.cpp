@@ -205,6 +205,11 @@ void checkMarks(const Panel& panel, const std::string& key) {
     reject(key + ".quantity", fmt::format("{}; allowed: 1 to 1000", panel.quantity));
 }
 
+std::string seamText(const FlatPattern& pattern, std::size_t k) {
+  const std::string& name = pattern.seams[k].name;
+  return name.empty() ? fmt::format("seams[{}]", k) : "seam \"" + name + "\"";
+}
+
 void checkSeams(const FlatPattern& pattern) {
   std::map<std::pair<int, int>, std::vector<std::array<double, 3>>> taken;  // from, to, seam
   std::set<std::string> names;
@@ -215,6 +220,14 @@ void checkSeams(const FlatPattern& pattern) {
       reject(key + ".name", "\"" + seam.name + "\" names two seams; allowed: a name for each");
     if (!(seam.stiffness_N >= 0 && seam.stiffness_N <= 1e3))
       reject(key + ".stiffness", fmt::format("{:g} N; allowed: 0 to 1000 N", seam.stiffness_N));
+    if (seam.open && seam.use != SeamUse::opening)
+      reject(key + ".open", "is of a seam that can be opened; allowed: with \"use\": \"opening\"");
+    if (seam.buttons > 0 && !seam.open)
+      reject(key + ".buttons", "hold a seam that is open; allowed: with \"open\": true");
+    if (seam.open && seam.stiffness_N > 0)
+      reject(key + ".stiffness", "is of a seam that is sewn; allowed: 0, or without \"open\"");
+    if (seam.rest_angle_rad != 0 && !(seam.stiffness_N > 0))
+      reject(key + ".rest_angle", "is of a spring; allowed: with a stiffness above 0");
     for (const auto& [side, word] : {std::pair(&seam.a, "a"), std::pair(&seam.b, "b")}) {
       if (side->empty()) reject(key + "." + word, "is empty; allowed: at least one part of an edge");
       for (std::size_t k = 0; k < side->size(); ++k) {
@@ -232,9 +245,8 @@ void checkSeams(const FlatPattern& pattern) {
         if (!(high - low >= 1e-6)) reject(at, "has no length");
         for (const auto& [from, to, other] : taken[{part.panel, part.edge}])
           if (std::min(high, to) - std::max(low, from) > 1e-9)
-            reject(at, fmt::format("edge {} of {}is sewn already, by seams[{}]; allowed: one seam for each part of an "
-                                   "edge",
-                                   part.edge, named(panel), static_cast<int>(other)));
+            reject(at, fmt::format("edge {} of {}is sewn already, by {}; allowed: one seam for each part of an edge",
+                                   part.edge, named(panel), seamText(pattern, static_cast<std::size_t>(other))));
         taken[{part.panel, part.edge}].push_back({low, high, static_cast<double>(s)});
         if (seam.use == SeamUse::dart && part.panel != seam.a.front().panel)
           reject(at, "is of another panel; a dart joins a panel with itself");

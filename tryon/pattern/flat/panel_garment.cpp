@@ -202,8 +202,20 @@ struct MadePanel {
   std::vector<PiecePart> parts;  ///< of its edges; empty where it is one patch
 };
 
+/// "front 2" of the second piece of "front", or what no panel is called, nor a piece that is there.
+std::string pieceName(const FlatPattern& pattern, const Panel& panel, std::size_t piece, const Garment& g) {
+  std::string between = " ", name;
+  do {
+    name = panel.name + between + std::to_string(piece + 1);
+    between += "piece ";
+  } while (std::any_of(pattern.panels.begin(), pattern.panels.end(), [&](const Panel& p) { return p.name == name; }) ||
+           std::find(g.patch_names.begin(), g.patch_names.end(), name) != g.patch_names.end());
+  return name;
+}
+
 /// Adds the patches of a panel: one, or one for each piece that the tips of its seams cut it into.
-MadePanel addPanel(const Panel& panel, const std::vector<PanelTip>& panel_tips, const PanelCells& cells, Garment& g) {
+MadePanel addPanel(const FlatPattern& pattern, const Panel& panel, const std::vector<PanelTip>& panel_tips,
+                   const PanelCells& cells, Garment& g) {
   Grain grain(panel);
   std::vector<SeamTip> tips;
   const PanelTip* longest = nullptr;
@@ -230,7 +242,7 @@ MadePanel addPanel(const Panel& panel, const std::vector<PanelTip>& panel_tips, 
       g.patches.push_back(patchOn(cropped(grid.u, low.x, high.x), cropped(grid.v, low.y, high.y), grain));
     }
     g.weft.push_back(grain.weftInWorld());
-    g.patch_names.push_back(k == 0 ? panel.name : panel.name + " " + std::to_string(k + 1));
+    g.patch_names.push_back(k == 0 ? panel.name : pieceName(pattern, panel, k, g));
     Trim trim;
     trim.loops = pieces.borders[k];
     g.trims.push_back(std::move(trim));
@@ -271,6 +283,33 @@ SewnEdge sewnEdge(const FlatPattern& pattern, const std::vector<SeamPart>& side,
     out.insert(out.end(), found.begin(), found.end());
   }
   return out;
+}
+
+/// The edges of a panel, "front.3" and those that have a name "front.hem" too, on the patches that it was made.
+void addNamedEdges(const FlatPattern& pattern, int number, const std::vector<MadePanel>& made, double cell_m,
+                   Garment& g) {
+  constexpr int kPlacesPerCell = 8;
+  const Panel& panel = pattern.panels[static_cast<std::size_t>(number)];
+  std::vector<NamedEdge> called;
+  for (int e = 0; e < edgeCount(panel); ++e) {
+    NamedEdge edge{panel.name + "." + std::to_string(e), {}};
+    for (const SewnPart& part : sewnEdge(pattern, {{number, e, 0, 1}}, made)) {
+      const double share = std::abs(part.to - part.from) / (part.curve.knots.back() - part.curve.knots.front());
+      const int n = std::max(kPlacesPerCell, static_cast<int>(kPlacesPerCell * share * lengthOf(panel, e) / cell_m));
+      edge.lines.emplace_back();
+      for (int i = 0; i <= n; ++i)
+        edge.lines.back().push_back(
+            {part.patch, curvePoint(part.curve, part.from + (part.to - part.from) * i / n).point});
+    }
+    if (const std::string& name = edgeOf(panel, e).name; !name.empty()) {
+      auto at = std::find_if(called.begin(), called.end(),
+                             [&](const NamedEdge& c) { return c.name == panel.name + "." + name; });
+      if (at == called.end()) at = called.insert(at, {panel.name + "." + name, {}});
+      at->lines.insert(at->lines.end(), edge.lines.begin(), edge.lines.end());
+    }
+    g.edges.push_back(std::move(edge));
+  }
+  g.edges.insert(g.edges.end(), called.begin(), called.end());
 }
 
 /// The part of a side between two fractions of its length.
@@ -333,12 +372,14 @@ Garment panelGarment(const FlatPattern& pattern, const PanelCells& cells, std::v
              "panel \"" + panel.name + "\" is cut " + std::to_string(panel.quantity) +
                  " times; allowed: once, each piece as a panel of its own");
     try {
-      made.push_back(addPanel(panel, tips[k], cells, g));
+      made.push_back(addPanel(pattern, panel, tips[k], cells, g));
       if (panel_of) panel_of->resize(g.patches.size(), static_cast<int>(k));
     } catch (const InputError& e) {
       reject("panels", k, "panel \"" + panel.name + "\": " + e.reason());
     }
   }
+  for (std::size_t k = 0; k < pattern.panels.size(); ++k)
+    addNamedEdges(pattern, static_cast<int>(k), made, cells.cell_m, g);
   std::vector<SewnSeam> cuts;
   std::swap(cuts, g.sewn_seams);
   // Sides that meet in a tip lie across the cells. More hats hold them nearer together; but where both do not look

@@ -9,6 +9,7 @@
 #include "core/contact/proximity.hpp"
 #include "core/error.hpp"
 #include "human/body/girths.hpp"
+#include "tryon/pattern/arm_form.hpp"
 #include "tryon/pattern/flat/body_tube.hpp"
 #include "tryon/pattern/flat/panel_geometry.hpp"
 #include "tryon/pattern/wrap.hpp"
@@ -129,6 +130,7 @@ class Placing {
       for (LaidPart& part : half->parts) centre(*half, part);
     }
     findHeights();
+    for (const int k : rings_) makeRoom(k);
     for (Half* half : {&front_, &back_}) spread(*half);
   }
 
@@ -285,6 +287,43 @@ class Placing {
     }
   }
 
+  /// Calls f with each pair of a ring, its own point first, and which way its edge looks there.
+  template <class F>
+  void eachOfRing(int k, const LaidPanel& laid, F f) const {
+    for (const SeamPair& given : pairs_) {
+      if ((given.a == k) == (given.b == k)) continue;
+      const SeamPair p = given.a == k ? given : turned(given);
+      f(p, laid.turn(p.na).y);
+    }
+  }
+  static bool isUpper(double looks) { return looks > 0.7; }
+
+  /// Between what a waistband is sewn to above and below it: what is below goes down until the band fits there.
+  void makeRoom(int k) {
+    if (region(k).part != Part::waistband) return;
+    const LaidPanel laid = upright(pattern_, k, pairs_);
+    std::vector<LaidPart*> below;
+    double floor = -1e300, roof = 1e300;
+    for (Half* half : {&front_, &back_})
+      for (LaidPart& part : half->parts) {
+        double high = -1e300, low = 1e300;
+        eachOfRing(k, laid, [&](const SeamPair& p, double looks) {
+          for (const LaidPanel& q : part)
+            if (q.panel == p.b) {
+              if (isUpper(looks))
+                low = std::min(low, q.low().y);
+              else
+                high = std::max(high, q.high().y);
+            }
+        });
+        roof = std::min(roof, low), floor = std::max(floor, high);
+        if (high > -1e299 && low > 1e299) below.push_back(&part);
+      }
+    const double missing = laid.high().y - laid.low().y + 2 * kGap_m - (roof - floor);
+    if (floor < -1e299 || !(missing > 0)) return;
+    for (LaidPart* part : below) move(*part, {0, -missing});
+  }
+
   std::vector<Vec2> hullBetween(double low, double high) const {
     constexpr double kMore_m = 0.03;
     std::vector<Vec2> points;
@@ -320,7 +359,7 @@ class Placing {
     for (const Half* half : {&front_, &back_})
       for (const LaidPart& part : half->parts)
         low = std::min(low, lowOf(part).y), high = std::max(high, highOf(part).y);
-    top_ = high;
+    top_ = high, bottom_ = low;
     if (!(low < high)) return;
     const auto tube = std::make_shared<BodyTube>(hullBetween(low, high), clearance_m);
     for (const Half* half : {&front_, &back_}) {
@@ -336,41 +375,54 @@ class Placing {
     }
   }
 
-  /// Above what it is sewn to, its points as near in direction to those that they are sewn to as can be.
+  /// Above what it is sewn to, its points as near in direction to those that they are sewn to as can be. A waistband
+  /// stands above what is sewn to its lower edge alone, and outside of what else there is at its height.
   void placeRing(int k, double clearance_m, PlacedPanels& out) const {
     LaidPanel laid = upright(pattern_, k, pairs_);
-    double bottom = -1e300;
-    Vec2 direction{};
-    const double length = laid.high().x - laid.low().x;
-    for (const SeamPair& given : pairs_) {
-      if ((given.a == k) == (given.b == k)) continue;
-      const SeamPair p = given.a == k ? given : turned(given);
-      if (!out.bent[static_cast<std::size_t>(p.b)]) continue;
-      bottom = std::max(bottom, out.bent[static_cast<std::size_t>(p.b)](p.xb).z);
-    }
+    const bool band = region(k).part == Part::waistband;
+    const double length = laid.high().x - laid.low().x, height = laid.high().y - laid.low().y;
+    double bottom = -1e300, roof = 1e300;
+    std::vector<int> under;  // what it is sewn to below it
+    eachOfRing(k, laid, [&](const SeamPair& p, double looks) {
+      if (!out.bent[static_cast<std::size_t>(p.b)]) return;
+      const double z = out.bent[static_cast<std::size_t>(p.b)](p.xb).z;
+      if (band && isUpper(looks))
+        roof = std::min(roof, z);
+      else
+        bottom = std::max(bottom, z), under.push_back(p.b);
+    });
+    if (bottom < -1e299 && roof < 1e299) bottom = roof - height - 2 * kGap_m;
     if (bottom < -1e299) bottom = region(k).part == Part::collar ? top_ : waist();
     bottom += kGap_m;
-    for (const Half* half : {&front_, &back_})
-      for (const LaidPart& part : half->parts)
-        for (const LaidPanel& p : part)
-          if (p.low().y < bottom + 0.3 && p.high().y > bottom - kGap_m)
-            bottom = std::max(bottom, std::min(p.high().y, top_) + kGap_m);
-    const double height = laid.high().y - laid.low().y;
-    const std::vector<Vec2> hull = hullBetween(bottom, bottom + height);
+    const auto eachLaid = [&](auto f) {
+      for (const Half* half : {&front_, &back_})
+        for (const LaidPart& part : half->parts)
+          for (const LaidPanel& p : part) f(p);
+    };
+    bool among = false;
+    eachLaid([&](const LaidPanel& p) {
+      if ((!band || std::find(under.begin(), under.end(), p.panel) != under.end()) && p.low().y < bottom + 0.3 &&
+          p.high().y > bottom - kGap_m)
+        bottom = std::max(bottom, std::min(p.high().y, top_) + kGap_m);
+    });
+    eachLaid([&](const LaidPanel& p) {
+      among = among || (band && p.low().y < bottom + height + 0.5 * kGap_m && p.high().y > bottom - 0.5 * kGap_m);
+    });
+    const std::vector<Vec2> hull = among ? hullBetween(bottom_, top_) : hullBetween(bottom, bottom + height);
     const double around = tapeGirth(hull);
-    const double off = std::max(clearance_m, (length + 2 * kGap_m - around) / (2 * std::numbers::pi));
+    const double off =
+        std::max(clearance_m + (among ? kGap_m : 0), (length + 2 * kGap_m - around) / (2 * std::numbers::pi));
     const auto tube = std::make_shared<BodyTube>(hull, off);
     const Vec2 c = tube->centre();
-    for (const SeamPair& given : pairs_) {
-      if ((given.a == k) == (given.b == k)) continue;
-      const SeamPair p = given.a == k ? given : turned(given);
-      if (!out.bent[static_cast<std::size_t>(p.b)]) continue;
+    Vec2 direction{};
+    eachOfRing(k, laid, [&](const SeamPair& p, double) {
+      if (!out.bent[static_cast<std::size_t>(p.b)]) return;
       const Vec3 to = out.bent[static_cast<std::size_t>(p.b)](p.xb);
       const double angle =
           std::atan2(to.y - c.y, to.x - c.x) -
           2 * std::numbers::pi * (laid.of(p.xa).x - 0.5 * (laid.low().x + laid.high().x)) / tube->length();
       direction = {direction.x + p.length_m * std::cos(angle), direction.y + p.length_m * std::sin(angle)};
-    }
+    });
     if (std::hypot(direction.x, direction.y) < 1e-9) direction = {region(k).part == Part::collar ? -1.0 : 1.0, 0};
     laid.move({-0.5 * (laid.low().x + laid.high().x), bottom - laid.low().y});
     const double start = tube->startAt(direction);
@@ -419,11 +471,9 @@ class Placing {
     const StandingBody::Links links = form_.links({names[side][0], names[side][1]});
     const int hand = form_.human().skeleton.link(side == 0 ? "hand_left" : "hand_right");
     const Vec3 shoulder = form_.origin(links[0]);
-    const Vec3 up = normalized(shoulder - form_.origin(hand >= 0 ? hand : links[1]));
-    const Vec3 forward = normalized(Vec3{1, 0, 0} - up.x * up);
-    Vec3 off = cross(up, forward);
-    if ((side == 0) != (off.y > 0)) off = -off;
-    const Vec3 right = side == 0 ? -forward : forward;  // as seen from outside
+    const ArmAxes arm = armAxes(normalized(shoulder - form_.origin(hand >= 0 ? hand : links[1])));
+    const Vec3 up = arm.up, off = side == 0 ? arm.left : -arm.left;
+    const Vec3 right = side == 0 ? -arm.forward : arm.forward;  // as seen from outside
     std::vector<LaidPanel> own;
     for (const int k : panels) own.push_back(upright(pattern_, k, pairs_, panels));
     std::vector<LaidPart> parts = layPanels(pattern_, own, sleevePairs(side, own), kGap_m);
@@ -480,7 +530,7 @@ class Placing {
   std::vector<std::optional<PanelRegion>> regions_;
   Half front_{Face::front, {}, {}}, back_{Face::back, {}, {}};
   std::vector<int> sleeves_[2], rings_;
-  double top_ = 0;
+  double top_ = 0, bottom_ = 0;  ///< of all that stands before and behind
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace gambeson {
 namespace {
 
 constexpr double kShortest_m = 0.02, kNotchApart_m = 5e-3, kLengthShare = 0.035, kLength_m = 2e-3, kMirror = 1e-3,
-                 kStraight = 0.03, kGoesOn = 0.4, kRound = 5e-3;
+                 kStraight = 0.03, kGoesOn = 0.4, kRound = 5e-3, kSameSide = 0.3, kUp = 0.8, kAside = 0.7;
 constexpr std::size_t kMostEdges = 1000;
 
 struct Side {
@@ -23,11 +23,42 @@ struct Side {
   std::vector<double> notches;  ///< fractions, ascending, ends left out
   double start_rad, end_rad;    ///< angles of the cloth at its corners
   bool straight;                ///< nearly: its middle lies within 3 % of its length from the line between its ends
+  bool hollow;                  ///< its middle lies further into the panel than that
+  std::optional<Vec2> looks;    ///< which way it looks off the panel as that is worn, x to the right, y up
+
+  bool isUp() const { return looks && looks->y > kUp; }
+  bool isDown() const { return looks && looks->y < -kUp; }
+  bool isAside() const { return !looks || std::abs(looks->x) > kAside; }
 };
+
+/// Up along the grain, by which a panel hangs: within 30 degrees of its y axis that way; of a panel that was drawn
+/// lying as the grain line runs. None where it has no grain line, or is cut on the bias.
+std::optional<Vec2> upOf(const Panel& panel) {
+  if (!panel.grain) return std::nullopt;
+  const Vec2 way{panel.grain->to_m.x - panel.grain->from_m.x, panel.grain->to_m.y - panel.grain->from_m.y};
+  const double length = std::hypot(way.x, way.y), nearly = std::cos(std::numbers::pi / 6);
+  if (std::max(std::abs(way.x), std::abs(way.y)) < nearly * length) return std::nullopt;
+  const double sense = way.y < -nearly * length ? -1 : 1;
+  return Vec2{sense * way.x / length, sense * way.y / length};
+}
 
 bool isStraight(const MeasuredCurve& c) {
   const Vec2 a = c.at(0).point, b = c.at(1).point, m = c.at(0.5).point;
   return std::hypot(m.x - 0.5 * (a.x + b.x), m.y - 0.5 * (a.y + b.y)) <= kStraight * c.length_m();
+}
+
+/// The cloth lies to the left of an edge.
+bool isHollow(const MeasuredCurve& c) {
+  const Vec2 a = c.at(0).point, b = c.at(1).point, m = c.at(0.5).point;
+  return (b.x - a.x) * (m.y - a.y) - (b.y - a.y) * (m.x - a.x) >
+         kStraight * c.length_m() * std::hypot(b.x - a.x, b.y - a.y);
+}
+
+std::optional<Vec2> looksOf(const MeasuredCurve& c, const std::optional<Vec2>& up) {
+  const Vec2 a = c.at(0).point, b = c.at(1).point, off{b.y - a.y, a.x - b.x};
+  const double length = std::hypot(off.x, off.y);
+  if (!up || !(length > 0)) return std::nullopt;
+  return Vec2{(off.x * up->y - off.y * up->x) / length, (off.x * up->x + off.y * up->y) / length};
 }
 
 double wayOf(Vec2 v) { return std::atan2(v.y, v.x); }
@@ -46,9 +77,18 @@ void addSides(const Panel& panel, int number, std::vector<Side>& out) {
   const auto corner = [&](int e) {  // where edge e starts
     return cornerAngle(curves[static_cast<std::size_t>((e + n - 1) % n)], curves[static_cast<std::size_t>(e)]);
   };
+  const std::optional<Vec2> up = upOf(panel);
   for (int e = 0; e < n; ++e) {
     const MeasuredCurve& curve = curves[static_cast<std::size_t>(e)];
-    Side side{number, e, curve.length_m(), {}, corner(e), corner((e + 1) % n), isStraight(curve)};
+    Side side{number,
+              e,
+              curve.length_m(),
+              {},
+              corner(e),
+              corner((e + 1) % n),
+              isStraight(curve),
+              isHollow(curve),
+              looksOf(curve, up)};
     for (const Notch& notch : panel.notches)
       if (notch.edge == e && notch.at > 1e-6 && notch.at < 1 - 1e-6) side.notches.push_back(notch.at);
     std::sort(side.notches.begin(), side.notches.end());
@@ -71,12 +111,17 @@ bool areImages(const std::vector<Side>& a, const std::vector<Side>& b) {
   return false;
 }
 
+/// Whether both look to the same side, as no two edges of panels do that hang beside each other.
+bool lookAlike(const Side& a, const Side& b) {
+  return a.looks && b.looks && a.isAside() && b.isAside() && a.looks->x * b.looks->x > 0;
+}
+
 /// Whether two edges of one panel are sewn to each other, as those under the arm of a sleeve are: alike, with one edge
 /// (the hem) between them, and with more of the panel on the other side than a fourth edge.
 bool closesRound(const Side& a, const Side& b, std::size_t count) {
   const int n = static_cast<int>(count), apart = std::abs(a.edge - b.edge);
-  return n > 4 && (apart == 2 || apart == n - 2) && a.straight && b.straight &&
-         std::abs(a.length_m - b.length_m) <= kRound * a.length_m;
+  return n > 4 && a.isAside() && b.isAside() && !lookAlike(a, b) && (apart == 2 || apart == n - 2) && a.straight &&
+         b.straight && std::abs(a.length_m - b.length_m) <= kRound * a.length_m;
 }
 
 struct Pair {
@@ -89,9 +134,12 @@ std::optional<double> misfit(const Side& a, const Side& b, bool images) {
   const double allowed = std::max(kLength_m, kLengthShare * std::max(a.length_m, b.length_m));
   const double off = std::abs(a.length_m - b.length_m) / allowed;
   if (!(off < 1)) return std::nullopt;
+  if (a.isDown() && b.isDown()) return std::nullopt;                      // hems, cuffs
+  if (a.isUp() && b.isUp() && a.hollow && b.hollow) return std::nullopt;  // necks
+  if (images && !(a.isAside() && b.isAside())) return std::nullopt;       // no centre lines
   const double corners = 0.5 * (std::abs(a.start_rad + b.end_rad - std::numbers::pi) +
                                 std::abs(a.end_rad + b.start_rad - std::numbers::pi));
-  const double within = 0.5 * off + 0.5 * std::min(1.0, corners / std::numbers::pi);
+  const double within = 0.5 * off + 0.5 * std::min(1.0, corners / std::numbers::pi) + (lookAlike(a, b) ? kSameSide : 0);
   if (images) return a.straight && b.straight ? std::optional(3 + within) : std::nullopt;
   if (a.notches.size() != b.notches.size()) return 2 + within;
   double apart = 0;

@@ -16,7 +16,13 @@ struct ProposedSeams {
 /// panel; worst are edges of panels that are mirror images, which are sewn only where they are nearly straight (centre
 /// lines). Within these, by how much lengths differ and how far the corners of both panels are from 180 degrees
 /// together: sewn edges lead on smoothly. Pairs beside one that is taken go before others, so that seams go on from
-/// panel to panel. Edges shorter than 2 cm are left alone, and patterns with more than 1000 edges.
+/// panel to panel.
+///
+/// A grain line tells how a panel hangs. What looks down on both panels (hems, cuffs) is not sewn to each other, nor
+/// are two hollows that look up (necks); centre lines of mirror images and the edges beside a hem look aside; and an
+/// edge that looks to the right goes rather with one that looks to the left. What is up in panels without a grain line,
+/// or on the bias, is not known, and nothing is left out there. Edges shorter than 2 cm are left alone, and patterns
+/// with more than 1000 edges.
 ProposedSeams proposeSeams(const FlatPattern& pattern);
 
 }  // namespace gambeson

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "human/body/section.hpp"
 #include "human/body/skin.hpp"
 
 namespace gambeson {
@@ -15,18 +14,15 @@ bool isOf(const StandingBody::Links& of, int link) { return std::find(of.begin()
 
 }  // namespace
 
-StandingBody::StandingBody(const Human& human, const Posture& posture)
-    : human_(human), poses_(linkPoses(human.skeleton, posture.q, posture.root)), median_y_(posture.root.origin.y) {
+StandingBody::StandingBody(const Human& human, const Posture& posture) : human_(human), form_(human, posture) {
   if (human.skin) {
-    TriangleMesh skin = human.skin->rest;
-    skinPositions(*human.skin, poses_, skin.vertices);
-    shapes_.push_back({std::move(skin), "skin"});
+    shapes_.push_back({form_.skin(), "skin"});
     placements_.emplace_back();
     return;
   }
   for (const BodyShape& s : human.shapes)
     shapes_.push_back({s.shape, human.skeleton.links[static_cast<std::size_t>(s.link)].name});
-  placements_ = placementsOf(human, poses_);
+  placements_ = form_.placements();
 }
 
 int StandingBody::link(const std::string& name) const {
@@ -44,7 +40,7 @@ StandingBody::Links StandingBody::links(std::initializer_list<const char*> names
 StandingBody::Links StandingBody::distalOf(const std::string& name) const {
   Links out;
   const int from = human_.skeleton.link(name);
-  for (int l = 0; from >= 0 && l < static_cast<int>(poses_.size()); ++l)
+  for (int l = 0; from >= 0 && l < static_cast<int>(human_.skeleton.links.size()); ++l)
     if (human_.skeleton.isDistal(l, from)) out.push_back(l);
   return out;
 }
@@ -73,26 +69,6 @@ std::vector<Vec3> StandingBody::points(const Links& of) const {
                                             a.y * std::sin(polar) * std::sin(round), a.z * std::cos(polar)});
       }
   }
-  return out;
-}
-
-std::vector<Vec2> StandingBody::level(double z, const Links& of) const {
-  std::vector<Vec2> out;
-  const auto add = [&](const Shape& shape, const Placement& X) {
-    for (const Vec2& p : crossSection(shape, X, z)) out.push_back(p);
-  };
-  if (human_.skin) {
-    const auto& mesh = std::get<TriangleMesh>(shapes_[0].shape);
-    const std::vector<int>& segment = human_.skin->segment;
-    TriangleMesh part{mesh.vertices, {}};
-    for (const auto& t : mesh.triangles)
-      if (std::all_of(t.begin(), t.end(), [&](int v) { return isOf(of, segment[static_cast<std::size_t>(v)]); }))
-        part.triangles.push_back(t);
-    add(part, {});
-    return out;
-  }
-  for (std::size_t i = 0; i < shapes_.size(); ++i)
-    if (isOf(of, human_.shapes[i].link)) add(shapes_[i].shape, placements_[i]);
   return out;
 }
 

@@ -8,12 +8,13 @@
 #include "core/contact/obstacle.hpp"
 #include "human/body/body.hpp"
 #include "human/motion/motion.hpp"
+#include "tryon/pattern/form.hpp"
 
 namespace gambeson {
 
 class StandingBody {
  public:
-  using Links = std::vector<int>;
+  using Links = gambeson::Links;
 
   /// `human` outlives it and has a surface.
   StandingBody(const Human& human, const Posture& posture);
@@ -25,14 +26,14 @@ class StandingBody {
   /// The link and all that lies distal of it; empty where there is none of this name.
   Links distalOf(const std::string& name) const;
   /// Where a link's frame stands (the joint that carries it).
-  const Vec3& origin(int link) const { return poses_[static_cast<std::size_t>(link)].origin; }
-  double medianY() const { return median_y_; }
+  const Vec3& origin(int link) const { return form_.origin(link); }
+  double medianY() const { return form_.medianY(); }
 
   /// Points of the surface of some links: vertices, or 24 by 48 points of an ellipsoid.
   std::vector<Vec3> points(const Links& of) const;
-  /// Points of their surface at a height (x, y); of a skin a triangle belongs to a link with all its vertices.
-  std::vector<Vec2> level(double z, const Links& of) const;
-  /// Height of their lowest point.
+  /// BodyForm::level.
+  std::vector<Vec2> level(double z, const Links& of) const { return form_.level(z, of); }
+  /// Height of the lowest of these points.
   double lowest(const Links& of) const;
   /// The whole surface, as shapes that stand: those of the links, or the skin as one mesh.
   const std::vector<Obstacle>& shapes() const { return shapes_; }
@@ -40,10 +41,9 @@ class StandingBody {
 
  private:
   const Human& human_;
-  std::vector<Pose> poses_;
+  BodyForm form_;
   std::vector<Obstacle> shapes_;
   std::vector<Placement> placements_;
-  double median_y_ = 0;
 };
 
 /// The posture with the arms this much from the sides, where the skeleton has shoulders.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -140,20 +141,28 @@ ClothMesh islandsOf(const ClothMesh& m, double scale_m, int& mirrored) {
                       0.0 + scale_m * m.uv[at(t)][k].y};
     }
   }
-  for (const MeshLine& line : m.lines)
-    for (int i = 0; i < count; ++i) {
-      if (patch_of[at(i)] != line.patch) continue;
-      std::map<std::pair<int, int>, bool> edges;
-      for (const int t : triangles[at(i)])
-        for (std::size_t k = 0; k < 3; ++k)
-          edges[std::minmax({m.triangles[at(t)][k], m.triangles[at(t)][(k + 1) % 3]})] = true;
-      bool within = line.vertices.size() > 1;
-      for (std::size_t k = 1; k < line.vertices.size(); ++k)
-        within = within && edges.contains(std::minmax({line.vertices[k - 1], line.vertices[k]}));
-      if (!within) continue;
-      out.lines.push_back({line.name, i, line.vertices});
-      break;
+  // Named edges, part by part where they cross from island to island.
+  std::vector<std::set<std::pair<int, int>>> edges(m.lines.empty() ? 0 : at(count));
+  for (int i = 0; i < static_cast<int>(edges.size()); ++i)
+    for (const int t : triangles[at(i)])
+      for (std::size_t k = 0; k < 3; ++k)
+        edges[at(i)].insert(std::minmax({m.triangles[at(t)][k], m.triangles[at(t)][(k + 1) % 3]}));
+  for (const MeshLine& line : m.lines) {
+    int now = -1;
+    for (std::size_t k = 1; k < line.vertices.size(); ++k) {
+      const std::pair<int, int> edge = std::minmax({line.vertices[k - 1], line.vertices[k]});
+      const auto has = [&](int i) { return i >= 0 && patch_of[at(i)] == line.patch && edges[at(i)].contains(edge); };
+      const int before = now;
+      if (!has(now)) {
+        now = 0;
+        while (now < count && !has(now)) ++now;
+        if (now == count) now = -1;
+      }
+      if (now < 0) continue;
+      if (now != before) out.lines.push_back({line.name, now, {line.vertices[k - 1]}});
+      out.lines.back().vertices.push_back(line.vertices[k]);
     }
+  }
   return out;
 }
 

@@ -19,8 +19,8 @@ struct UvFit {
 UvFit fitUv(const ClothMesh& mesh);
 
 /// The mesh with a patch for each island of each patch, in its order ("front", or "front_1", "front_2" where it has
-/// several), and uv in metres, counter-clockwise; mirrored islands are turned over, u to -u. Named edges stay where
-/// they lie within one island. Only where fitUv finds no fault.
+/// several), and uv in metres, counter-clockwise; mirrored islands are turned over, u to -u. Named edges that
+/// cross from island to island become parts of one name, one in each. Only where fitUv finds no fault.
 ClothMesh islandsOf(const ClothMesh& mesh, double scale_m, int& mirrored);
 
 /// Islands as panels: each outline split where the neighbour changes, at corners of free borders, and at the tips of

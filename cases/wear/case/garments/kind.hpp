@@ -36,6 +36,8 @@ struct GarmentMaking {
   std::span<const Worn> under;     ///< the garments before it
   const Human* human = nullptr;    ///< null without a human, or where it has no surface
   Posture posture;                 ///< in which it is put on
+  /// Takes what a user should know of how it fits the body, before it is put on; null: nobody asks.
+  std::vector<std::string>* fit = nullptr;
 };
 
 /// What a garment asks of the arms of whoever is dressed: nothing, that they hang as it was drafted for, or that they
@@ -61,8 +63,6 @@ struct GarmentKind {
   std::string (*fieldless)(const GarmentCase& g) = [](const GarmentCase&) { return std::string(); };
   /// Makes the garment where its kind puts it (`position` and `weft_angle` follow), without fabrics and fields.
   Garment (*make)(const GarmentMaking& making) = nullptr;
-  /// What a user should know of how it fits the body, before it is put on.
-  Names (*fit)(const GarmentMaking& making) = [](const GarmentMaking&) { return Names{}; };
   ArmsWanted (*arms)(const GarmentCase& g) = [](const GarmentCase&) { return ArmsWanted::any; };
   /// Whether it is put on in the posture of the wearer's skin, as a scan was scanned, and not as he is dressed.
   bool (*as_scanned)(const GarmentCase& g) = [](const GarmentCase&) { return false; };

@@ -8,6 +8,7 @@
 #include "cases/input/table.hpp"
 #include "cases/input/wrong_entry.hpp"
 #include "cases/pattern/pattern_file.hpp"
+#include "cases/pattern/seam_edits.hpp"
 #include "cases/wear/case/garments/kind.hpp"
 #include "core/error.hpp"
 #include "tryon/pattern/flat/panel_fit.hpp"
@@ -27,6 +28,9 @@ Object patternGarmentTable() {
       .integer("degree", &P::degree, 2, 5, "polynomial degree")
       .number("close_within", &P::close_within_s, "s", aboveTo(0, 100),
               "by then its seams are closed around the wearer; else the run says which gape, and by how much")
+      .list("seams", &P::seams, seamEditTable(),
+            "which seams are otherwise than the file has them, in their order: changed, taken away, or new")
+      .defaultsTo("as the file has them")
       .build();
 }
 
@@ -37,16 +41,17 @@ namespace {
 
 const PatternGarment& of(const GarmentCase& g) { return std::get<PatternGarment>(g.shape); }
 
-/// Runs f; what is wrong with the pattern is said in its file.
+/// Runs f; what is wrong with the pattern is said in its file, or of a seam that the case edits by its key there.
 template <class F>
-auto inFile(const GarmentCase& g, F f) {
+auto inFile(const GarmentCase& g, const EditedPattern& edited, F f) {
   try {
     return f();
   } catch (const InputError& e) {
     if (!e.where().file.empty() || e.where().key == "human") throw;
+    if (std::string key; edited.isOfEdit(e, key)) throw InputError({"", 0, key}, e.reason());
     const JsonNode root = readJson(of(g).path, {.bytes = kPatternBytes});
     const std::string file = of(g).path.string();
-    sayAt(schema::Entry{root, "", file}, e);
+    sayAt(schema::Entry{root, "", file}, edited.inFile(e));
   }
 }
 
@@ -77,79 +82,80 @@ void checkPlaces(const FlatPattern& pattern) {
     }
 }
 
-FlatPattern patternOf(const GarmentCase& g) {
-  FlatPattern pattern = readPattern(of(g).path);
-  inFile(g, [&] { checkPlaces(pattern); });
-  return pattern;
-}
-
-Garment garmentOf(const GarmentCase& g, const FlatPattern& pattern, std::vector<int>* panel_of = nullptr) {
-  return panelGarment(pattern, {of(g).cell_m, of(g).degree}, panel_of);
+EditedPattern patternOf(const GarmentCase& g) {
+  EditedPattern edited = editSeams(readPattern(of(g).path), of(g).seams);
+  inFile(g, edited, [&] { checkPlaces(edited.pattern); });
+  return edited;
 }
 
 /// Its patches and edges, wherever they will stand.
 Garment lookAt(const GarmentCase& g) {
-  FlatPattern pattern = patternOf(g);
-  for (Panel& p : pattern.panels)
+  EditedPattern edited = patternOf(g);
+  for (Panel& p : edited.pattern.panels)
     if (!p.placement) p.placement = PanelPlace{};
-  return inFile(g, [&] { return garmentOf(g, pattern); });
+  return inFile(g, edited, [&] { return panelGarment(edited.pattern, {of(g).cell_m, of(g).degree}); });
+}
+
+/// Where its panels start by their regions, those of its patches (`panel_of`): bent around the wearer.
+std::vector<std::vector<Vec3>> bentPoints(const Garment& garment, const std::vector<int>& panel_of,
+                                          const PlacedPanels& placed) {
+  std::vector<std::vector<Vec3>> out(garment.patches.size());
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const auto panel = static_cast<std::size_t>(panel_of[k]);
+    const PanelPlace& flat = placed.flat[panel];
+    for (const Vec3& x : garment.patches[k].points) {
+      const Vec3 r = x - flat.origin_m;
+      out[k].push_back(placed.bent[panel]({dot(r, flat.along_x), dot(r, flat.along_y)}));
+    }
+  }
+  return out;
+}
+
+/// Which panels stand in the body, as placed for another.
+void sayDepths(const FlatPattern& pattern, const std::string& name, const GarmentMaking& m, const StandingBody& body) {
+  for (const Panel& panel : pattern.panels) {
+    const PanelPlace& at = *panel.placement;
+    const PanelDepth d = depthInBody(
+        panel, [&](Vec2 x) { return m.worn.position_m + at.origin_m + x.x * at.along_x + x.y * at.along_y; }, body);
+    if (d.depth_m > 0)
+      m.fit->push_back(
+          fmt::format("panel \"{}\" of the garment \"{}\" starts {:.1f} cm deep in the body ({}): it is placed for "
+                      "another wearer; \"placing\": \"regions\" in its file places all by their regions",
+                      panel.name, name, 100 * d.depth_m, d.segment));
+  }
 }
 
 Garment makePanels(const GarmentMaking& m) {
-  FlatPattern pattern = patternOf(m.worn);
-  return inFile(m.worn, [&] {
-    if (!byRegions(pattern)) return garmentOf(m.worn, pattern);
-    if (!m.human)
+  EditedPattern edited = patternOf(m.worn);
+  FlatPattern& pattern = edited.pattern;
+  return inFile(m.worn, edited, [&] {
+    const bool regions = byRegions(pattern);
+    if (regions && !m.human)
       throw InputError({"", 0, "panels"},
                        "stand around a human by their regions, and the case has none; allowed: a placement for each");
-    const PlacedPanels placed = placePanels(pattern, StandingBody(*m.human, m.posture));
-    for (std::size_t k = 0; k < pattern.panels.size(); ++k) pattern.panels[k].placement = placed.flat[k];
-    std::vector<int> panel_of;
-    Garment garment = garmentOf(m.worn, pattern, &panel_of);
-    garment.placed.resize(garment.patches.size());
-    for (std::size_t k = 0; k < garment.patches.size(); ++k) {
-      const auto panel = static_cast<std::size_t>(panel_of[k]);
-      const PanelPlace& flat = placed.flat[panel];
-      for (const Vec3& x : garment.patches[k].points) {
-        const Vec3 r = x - flat.origin_m;
-        garment.placed[k].push_back(placed.bent[panel]({dot(r, flat.along_x), dot(r, flat.along_y)}));
-      }
+    std::optional<StandingBody> body;
+    if (m.human && (regions || m.fit)) body.emplace(*m.human, m.posture);
+    std::optional<PlacedPanels> placed;
+    if (regions) {
+      placed = placePanels(pattern, *body);
+      for (std::size_t k = 0; k < pattern.panels.size(); ++k) pattern.panels[k].placement = placed->flat[k];
     }
-    return garment;
-  });
-}
-
-/// What is too narrow, and which panels stand in the body where they were placed for another.
-std::vector<std::string> fitOf(const GarmentMaking& m) {
-  if (!m.human) return {};
-  const FlatPattern pattern = patternOf(m.worn);
-  const std::string name = m.worn.name.empty() ? pattern.name : m.worn.name;
-  return inFile(m.worn, [&] {
-    std::vector<std::string> notes;
+    std::vector<int> panel_of;
+    Garment garment = panelGarment(pattern, {of(m.worn).cell_m, of(m.worn).degree}, &panel_of);
+    if (placed) garment.placed = bentPoints(garment, panel_of, *placed);
+    if (!m.fit || !body) return garment;
+    const std::string name = m.worn.name.empty() ? pattern.name : m.worn.name;
     std::vector<LaidPanel> front, back;
-    if (byRegions(pattern)) {
-      const PlacedPanels placed = placePanels(pattern, StandingBody(*m.human, m.posture));
-      front = placed.front, back = placed.back;
+    if (placed) {
+      front = placed->front, back = placed->back;
     } else {
       layAsPlaced(pattern, m.worn.position_m, front, back);
-      for (const Panel& panel : pattern.panels) {
-        const PanelPlace& at = *panel.placement;
-        const PanelDepth d = depthInBody(
-            panel, [&](Vec2 x) { return m.worn.position_m + at.origin_m + x.x * at.along_x + x.y * at.along_y; },
-            StandingBody(*m.human, m.posture));
-        if (d.depth_m > 0)
-          notes.push_back(
-              fmt::format("panel \"{}\" of the garment \"{}\" starts {:.1f} cm deep in the body ({}): it is "
-                          "placed for another wearer; \"placing\": \"regions\" in its file places all by their regions",
-                          panel.name, name, 100 * d.depth_m, d.segment));
-      }
+      sayDepths(pattern, name, m, *body);
     }
-    if (const std::string text =
-            shortText(panelGirths(pattern, front, back, StandingBody(*m.human, m.posture)), standsOf(m.fabric));
-        !text.empty())
-      notes.push_back(
+    if (const std::string text = shortText(panelGirths(pattern, front, back, *body), standsOf(m.fabric)); !text.empty())
+      m.fit->push_back(
           fmt::format("garment \"{}\" is narrower than its wearer before anything is sewn: {}", name, text));
-    return notes;
+    return garment;
   });
 }
 
@@ -165,13 +171,12 @@ const GarmentKind pattern_garment{
                                             "flat panels from a file, sewn around the wearer");
         },
     .make = makePanels,
-    .fit = fitOf,
     .arms =
         [](const GarmentCase& g) {
-          const FlatPattern pattern = patternOf(g);
+          const FlatPattern pattern = patternOf(g).pattern;
           return byRegions(pattern) && coversArms(pattern) ? ArmsWanted::aside : ArmsWanted::any;
         },
-    .as_scanned = [](const GarmentCase& g) { return !byRegions(patternOf(g)); },
+    .as_scanned = [](const GarmentCase& g) { return !byRegions(patternOf(g).pattern); },
     .look = lookAt,
     .files = [](GarmentCase& g, const GarmentKind::Take& take) { take(std::get<PatternGarment>(g.shape).path); },
 };

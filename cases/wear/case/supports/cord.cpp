@@ -40,14 +40,12 @@ const SupportKind cord_support{
           const double tension = std::get<CordSupport>(support).tension_N;
           std::vector<Vec3> X(on.surface.size());
           on.surface.W.multiply<Vec3>(on.cloth.rest(), X);
-          for (const PatchEdge& e : on.edges) {
-            const std::vector<int> at = edgeSamples(on.surface, e);
+          for (const std::vector<int>& at : on.lines)
             for (std::size_t k = 0; k + 1 < at.size(); ++k) {
               const double stiffness = tension / norm(X[at[k + 1]] - X[at[k]]);
               group.cord.emplace_back(static_cast<int>(options.stitches.size()), stiffness);
               options.stitches.push_back({at[k], at[k + 1], stiffness, 0});
             }
-          }
         },
 };
 

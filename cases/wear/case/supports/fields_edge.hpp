@@ -12,7 +12,7 @@
 
 namespace gambeson::schema {
 
-/// "waist", or "2.u0" for side u0 of patch 2.
+/// "waist", "front.hem", "front.3", or "2.u0" for side u0 of patch 2.
 inline const std::vector<std::string> side_names{"u0", "u1", "v0", "v1"};
 
 template <class S>
@@ -27,22 +27,21 @@ void edgeField(Table<S>& table) {
   f.required = true;
   f.doc =
       "which edge of the garment: waist, hem_left, hem_right of shorts and trousers; hem, neck_front, neck_back, "
-      "belly_hem, cuff_left, cuff_right of a shirt; start, end of a tube; u0, u1, v0, v1 of a sheet; or "
-      "patch and side, such as 2.u0";
+      "belly_hem, cuff_left, cuff_right of a shirt; start, end of a tube; u0, u1, v0, v1 of a sheet; of a pattern "
+      "panel and edge, by its name or number, such as front.hem, front.3; or patch and side, such as 2.u0";
   table.custom(
       f,
       [](const Entry& p, S& s) {
         const std::string& text = readText(p);
         const std::size_t dot_at = text.find('.');
-        if (dot_at == std::string::npos) {
+        const std::string patch = text.substr(0, dot_at),
+                          side = dot_at == std::string::npos ? "" : text.substr(dot_at + 1);
+        const auto found = std::find(side_names.begin(), side_names.end(), side);
+        if (patch.empty() || patch.size() > 4 || patch.find_first_not_of("0123456789") != std::string::npos ||
+            found == side_names.end()) {
           s.edge.name = text;
           return;
         }
-        const std::string patch = text.substr(0, dot_at), side = text.substr(dot_at + 1);
-        const auto found = std::find(side_names.begin(), side_names.end(), side);
-        if (patch.empty() || patch.size() > 4 || patch.find_first_not_of("0123456789") != std::string::npos ||
-            found == side_names.end())
-          p.fail(describe(p.node) + " is not an edge; allowed: a name, or patch and side such as 2.u0");
         s.edge.name.clear();
         s.edge.patch = std::stoi(patch);
         s.edge.side = static_cast<Side>(found - side_names.begin());

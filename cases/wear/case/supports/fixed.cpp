@@ -1,6 +1,7 @@
 /// Detail of kind.hpp: an edge that is held.
 
 #include <functional>
+#include <set>
 
 #include "cases/wear/case/supports/fields_edge.hpp"
 #include "cases/wear/case/supports/fields_held.hpp"
@@ -13,7 +14,9 @@ namespace {
 Object fixedTable() {
   Table<FixedSupport> table("Fixed edge");
   edgeField(table);
-  table.integer("rows", &FixedSupport::rows, 1, 2, "rows of control points held: 1 holds the edge, 2 also its slope");
+  table.integer("rows", &FixedSupport::rows, 1, 2,
+                "rows of control points held: 1 holds the edge, 2 also its slope; of an edge of a panel, which lies "
+                "across the cells, all that shape it are held, and with them its slope");
   heldFields(table);
   return table.build();
 }
@@ -32,10 +35,19 @@ const SupportKind fixed_support{
     .hold =
         [](const SupportCase& support, const SupportedCloth& on, ModelOptions&, SupportGroup& group) {
           group.name = on.name + " held";
-          for (const PatchEdge& e : on.edges) {
-            const std::vector<int> points = on.cloth.mounting().edgePoints(e, std::get<FixedSupport>(support).rows);
+          const Mounting& mounting = on.cloth.mounting();
+          for (const PatchEdge& e : on.edge.edges) {
+            const std::vector<int> points = mounting.edgePoints(e, std::get<FixedSupport>(support).rows);
             group.control_points.insert(group.control_points.end(), points.begin(), points.end());
           }
+          std::set<int> shaping;  // lines across the cells
+          for (const std::vector<EdgePlace>& line : on.edge.lines)
+            for (const EdgePlace& place : line) {
+              const PlaceRow row = mounting.place(place.patch, place.uv);
+              for (std::size_t k = 0; k < row.columns.size(); ++k)
+                if (row.value[k] > 1e-12) shaping.insert(row.columns[k]);
+            }
+          group.control_points.insert(group.control_points.end(), shaping.begin(), shaping.end());
         },
 };
 

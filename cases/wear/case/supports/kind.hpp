@@ -37,10 +37,11 @@ struct SupportGroup {
 struct SupportedCloth {
   const Cloth& cloth;
   const Surface& surface;
-  const Human* human = nullptr;         ///< null where the case has none
-  std::string name;                     ///< of the edge; of what is on none, of the garment, with a blank
-  const std::vector<PatchEdge>& edges;  ///< of the cloth
-  int first_patch = 0;                  ///< of the garment
+  const Human* human = nullptr;           ///< null where the case has none
+  std::string name;                       ///< of the edge; of what is on none, of the garment, with a blank
+  int first_patch = 0;                    ///< of the garment
+  NamedEdge edge{};                       ///< its patches are those of the cloth
+  std::vector<std::vector<int>> lines{};  ///< samples along each part of the edge
 };
 
 /// All functions are of supports of this kind.

@@ -62,14 +62,12 @@ void holdBySprings(const SupportCase& support, const SupportedCloth& on, ModelOp
   std::vector<double> length(on.surface.size(), 0);
   std::vector<Vec3> X(on.surface.size());
   on.surface.W.multiply<Vec3>(on.cloth.rest(), X);
-  for (const PatchEdge& e : on.edges) {
-    const std::vector<int> at = edgeSamples(on.surface, e);
+  for (const std::vector<int>& at : on.lines)
     for (std::size_t k = 0; k + 1 < at.size(); ++k) {
       const double half = 0.5 * norm(X[at[k + 1]] - X[at[k]]);
       length[at[k]] += half;
       length[at[k + 1]] += half;
     }
-  }
   std::vector<Vec3> skin;
   if (on.human->skin) skin = standingSkin(*on.human);
   for (int s : group.samples) {

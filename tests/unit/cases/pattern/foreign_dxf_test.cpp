@@ -172,8 +172,14 @@ TEST(ForeignDxf, PiecesWithoutBlocks) {
   entities += dxfLine("1", {{0, 0}, {200, 0}, {200, 300}}) + dxfLine("1", {{200, 300}, {0, 300}, {0, 0}}) +
               dxfTextOf("PIECE NAME: FRONT", 50, 50) + dxfLine("1", {{20, 200}, {40, 200}, {40, 220}, {20, 220}}, true);
   entities += dxfLine("1", {{400, 0}, {500, 0}, {500, 300}, {400, 300}}, true) + dxfLine("7", {{450, 50}, {450, 250}});
+  entities += dxfLine("1", {{700, 0}, {800, 0}, {800, 300}}) + dxfLine("8", {{700, 10}, {720, 10}}) +
+              dxfTextOf("for pockets", 710, 20);  // in no piece
   const ImportedPattern in = importDxf(folder, dxfWhole("", entities));
   ASSERT_EQ(in.pattern.panels.size(), 2u);
+  EXPECT_TRUE(dxfSays(in.dropped, "of layer 1 that lies in no closed line"));
+  EXPECT_TRUE(dxfSays(in.dropped, "of layer 8 that lies in no closed line"));
+  EXPECT_TRUE(dxfSays(in.dropped, "a text that lies in no closed line"));
+  EXPECT_FALSE(dxfSays(in.dropped, "of layer 7"));
   EXPECT_TRUE(dxfSays(in.notes, "has no blocks"));
   EXPECT_EQ(in.pattern.panels[0].name, "FRONT");
   EXPECT_EQ(in.pattern.panels[0].cutouts.size(), 1u);

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <random>
 
+#include "core/cloth/draft/join_garments.hpp"
+#include "core/motion/held_motion.hpp"
 #include "core/motion/velocity_verlet.hpp"
 #include "unit/core/cloth/sewn_shapes.hpp"
 #include "unit/core/motion/motion_shapes.hpp"
@@ -294,6 +296,96 @@ TEST(Sewing, HoldsUnderContact) {
   EXPECT_LT(worst, 1e-9);
   EXPECT_LT(row, 1e-9);
   EXPECT_LT(gap, 0.01);
+}
+
+/// One panel is moved whole, and takes the other along by their seam alone: all that it gives is work of the supports.
+class PullsAPanel : public UniformStage {
+ public:
+  static constexpr double kPull = 4;  // m/s^2
+  void heldMotions(double t, std::span<HeldMotion> motions) const override {
+    const Vec3 way{0, 0, 0.5 * kPull * t * t};
+    motions[0].pose = {rotationAbout({1, 0, 0}, 0), way};
+    motions[0].rate = {way, {0, 0, kPull * t}, {}};
+  }
+};
+
+TEST(Sewing, WhatAMovedPanelGivesIsInTheEnergy) {
+  double off[2];
+  for (const int fine : {0, 1}) {
+    const Garment g = sewnSheet().garment(sheetFabric());
+    ModelOptions o;
+    o.self_contact = false;
+    for (int k = 0; k < g.patches[1].size(); ++k) o.held_control_points.push_back(g.patches[0].size() + k);
+    o.held_motion.assign(o.held_control_points.size(), 0);
+    const auto model = buildModel(g, o, {{0, 0, -9.81}, 0.1}, {}, {}, {});
+    PullsAPanel stage;
+    StepWork work;
+    State state = initialState(*model, stage, 0, work), next;
+    for (int i = 0; i < model->freeCount(); ++i) {
+      const int home = model->cloth->map().home[i];
+      state.p[i] = home < g.patches[0].size() ? g.placed[0][static_cast<std::size_t>(home)]
+                                              : g.placed[1][static_cast<std::size_t>(home - g.patches[0].size())];
+    }
+    attachSprings(*model, stage, state, work);
+    const double dt = fine ? 5e-5 : 1e-4, first = energyOf(*model, stage, state, work).total();
+    double works = 0, supports = 0, worst = 0;
+    for (int k = 0; k * dt < 0.08; ++k) {
+      const StepReport r = gambeson::step(*model, stage, state, dt, next, work);
+      ASSERT_EQ(r.failure, StepFailure::none) << r.why;
+      std::swap(state, next);
+      works += r.work.drag + r.work.supports;
+      supports += r.work.supports;
+      worst = std::max(worst, r.momentum.error() / r.momentum.scale);
+    }
+    off[fine] = std::abs(energyOf(*model, stage, state, work).total() - first - works) / std::abs(supports);
+    std::printf("moved panel: supports %.4g J, energy off by %.3g of that, momentum %.1e\n", supports, off[fine],
+                worst);
+    EXPECT_LT(worst, 1e-9);
+    EXPECT_GT(std::abs(supports), 1e-4);
+  }
+  EXPECT_LT(off[1], 2e-3);
+  EXPECT_LT(off[1], 0.6 * off[0]);
+}
+
+/// Of two garments one falls onto a ball and the seam of the other is still far open: the first one's holds.
+TEST(Sewing, OneGarmentsSeamsHoldWhileAnothersAreOpen) {
+  const CutSheet sheet = sewnSheet();
+  Garment apart = sheet.garment(sheetFabric());
+  const Vec3 aside{0, 1, 0};
+  for (NurbsPatch& p : apart.patches)
+    for (Vec3& x : p.points) x += aside;
+  for (auto& points : apart.placed)
+    for (Vec3& x : points) x += aside;
+  for (Vec3& x : apart.placed[1]) x.x += 0.1;
+  const std::vector<Garment> both{sheet.garment(sheetFabric()), apart};
+  Placement at;
+  at.origin = {0.5 * sheet.length, 0.5 * sheet.width, -0.062};
+  Motion m = startOf(joinGarments(both), {{0, 0, -9.81}, 0.1}, true, {1e-3, 0.3, 0.01, 1e-2, 400},
+                     {{Ellipsoid{{0.06, 0.06, 0.06}}, "ball"}}, {at});
+  const double dt = 0.4 * stableStep(m);
+  double held = 0, open = 1e300, worst = 0;
+  int touching = 0;
+  std::vector<Vec3> rows;
+  for (int k = 0; k * dt < 0.06; ++k) {
+    const StepReport r = m.step(dt);
+    ASSERT_EQ(r.failure, StepFailure::none) << r.why;
+    worst = std::max(worst, r.momentum.error() / r.momentum.scale);
+    touching += !m.work.rows.empty() && contactsMeetSeams(*m.model, m.work.rows);
+    m.model->sewing.gaps(m.state.p, rows);
+    double widest[2] = {0, 0};
+    for (std::size_t k_row = 0; k_row < rows.size(); ++k_row) {
+      double& its = widest[m.model->sewn_garment[k_row]];
+      its = std::max(its, norm(rows[k_row]));
+    }
+    held = std::max(held, widest[0]);
+    open = std::min(open, widest[1]);
+  }
+  std::printf("two garments: seam that holds %.1e m, that is open %.3f m, %d steps with contacts on the seam\n", held,
+              open, touching);
+  EXPECT_GT(touching, 50);
+  EXPECT_GT(open, 0.08);
+  EXPECT_LT(held, 1e-9);
+  EXPECT_LT(worst, 1e-9);
 }
 
 }  // namespace

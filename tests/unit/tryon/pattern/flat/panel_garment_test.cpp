@@ -89,6 +89,25 @@ TEST(PanelGarment, StandsWhereItIsPlacedOnItsGrain) {
   EXPECT_LT(norm(d[2] - warp), 1e-12);
 }
 
+/// A panel may be called what the second piece of another one would be.
+TEST(PanelGarment, PiecesAreCalledLikeNoOtherPanel) {
+  FlatPattern p = twoPanels();
+  p.seams.clear();
+  Panel darted;
+  darted.name = "front";
+  for (const Vec2 c : {Vec2{0, 0}, {0.2, -0.03}, {0.2, -0.2}, {-0.2, -0.2}, {-0.2, 0.2}, {0.2, 0.2}, {0.2, 0.03}})
+    darted.outline.insert(darted.outline.begin(), PanelEdge{"", c, StraightEdge{}});
+  darted.placement = PanelPlace{};
+  p.panels = {darted, p.panels[1], p.panels[1]};
+  p.panels[1].name = "front 2", p.panels[2].name = "back";
+  p.seams = {{"dart", {{0, 5, 0, 1}}, {{0, 6, 1, 0}}, SeamUse::dart}};
+  std::swap(p.seams[0].a[0].from, p.seams[0].a[0].to), std::swap(p.seams[0].b[0].from, p.seams[0].b[0].to);
+  const auto names = [&] { return panelGarment(p, {0.02, 2}).patch_names; };
+  EXPECT_EQ(names(), (std::vector<std::string>{"front", "front piece 2", "front 2", "back"}));
+  p.panels[1].name = "side";
+  EXPECT_EQ(names(), (std::vector<std::string>{"front", "front 2", "side", "back"}));
+}
+
 TEST(PanelGarment, WhatIsWrongIsNamed) {
   std::string key;
   FlatPattern p = twoPanels();

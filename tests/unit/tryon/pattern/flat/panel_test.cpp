@@ -189,7 +189,7 @@ TEST(FlatPanel, NamesWhatIsWrong) {
   says(broken([](FlatPattern& p) {
          p.seams.push_back({"x", {{0, 1, 0.5, 1}}, {{1, 0, 0, 1}}});
        }),
-       "seams[1].a[0]:", "sewn already, by seams[0]");
+       "seams[1].a[0]:", "sewn already, by seam \"side\"");
   says(broken([](FlatPattern& p) { p.seams[0].use = SeamUse::dart; }), "seams[0].b[0]:", "another panel");
   EXPECT_EQ(broken([](FlatPattern& p) {
               p.seams[0].a[0].to = 0.5;
@@ -234,6 +234,40 @@ TEST(FlatPanel, SeamsAreProposedByLengthAndNotch) {
     EXPECT_EQ(seam.b[0].from, 1);
     EXPECT_NEAR(lengthOf(p, seam.a), lengthOf(p, seam.b), 0.035 * lengthOf(p, seam.a));
   }
+}
+
+/// Two tubes, a front and a back each: hems are as long as each other, necks too, and all sides are alike.
+TEST(FlatPanel, HemsAndNecksAreNotProposed) {
+  const auto half = [](const std::string& name, double shift) {
+    Panel p = polygonPanel(name, {{0, 0}, {0.4, 0}, {0.4 + shift, 0.5}, {0.3, 0.55}, {0.1, 0.55}, {-shift, 0.5}});
+    p.outline[3].curve = BezierEdge{{{0.2, 0.42}}};  // the neck
+    p.grain = GrainLine{{0.2, 0.1}, {0.2, 0.4}};
+    return p;
+  };
+  FlatPattern p = patternOf({half("front", 0.01), half("back", 0.012)});
+  ASSERT_EQ(refusal(p), "accepted");
+  const auto count = [&](int edge) {
+    int found = 0;
+    for (const PanelSeam& s : proposeSeams(p).seams) found += s.a[0].edge == edge || s.b[0].edge == edge;
+    return found;
+  };
+  EXPECT_EQ(count(0), 0) << "hems";
+  EXPECT_EQ(count(3), 0) << "necks";
+  EXPECT_EQ(count(2), 2) << "both shoulders";
+  for (const PanelSeam& s : proposeSeams(p).seams)
+    EXPECT_EQ(s.a[0].edge + s.b[0].edge, 6) << "right goes with left: " << s.a[0].edge << ", " << s.b[0].edge;
+  EXPECT_EQ(proposeSeams(p).seams.size(), 4u);
+  // Lying pieces hang as their grain line runs; without one nobody knows what is a hem.
+  for (Panel& panel : p.panels) {
+    for (PanelEdge& e : panel.outline) {
+      e.start_m = {e.start_m.y, -e.start_m.x};
+      if (auto* b = std::get_if<BezierEdge>(&e.curve)) b->controls_m[0] = {b->controls_m[0].y, -b->controls_m[0].x};
+    }
+    panel.grain = GrainLine{{0.1, -0.2}, {0.4, -0.2}};
+  }
+  EXPECT_EQ(count(0), 0);
+  for (Panel& panel : p.panels) panel.grain.reset();
+  EXPECT_EQ(count(0), 1);
 }
 
 }  // namespace

@@ -229,6 +229,74 @@ TEST(PlacePanels, WhatHasNoPlaceIsRefused) {
   EXPECT_EQ(key, "panels[2]");
 }
 
+/// A bodice and a skirt with a band between them: it stands between them, around the waist.
+TEST(PlacePanels, AWaistbandStaysAtTheWaist) {
+  for (const char* manikin : {"male_p50", "female_p5"}) {
+    const Human human = makeManikin(manikin);
+    const StandingBody form(human, withArmsAside(human, standing(human), kAside));
+    const Size size = sizeFor(form);
+    FlatPattern p;
+    p.name = "dress";
+    addShirt(p, size, 0.46);
+    const FlatPattern below = skirt(size);
+    const int skirts = static_cast<int>(p.panels.size()), band = skirts + 2;
+    for (Panel panel : below.panels) panel.name = "skirt " + panel.name, p.panels.push_back(panel);
+    for (PanelSeam seam : below.seams) {
+      seam.name += " of the skirt";
+      for (auto* side : {&seam.a, &seam.b}) (*side)[0].panel += skirts;
+      p.seams.push_back(seam);
+    }
+    const double w = 2 * size.scale * size.quarter_waist, h = 0.06;
+    p.panels.push_back(panel("band", "waistband", {edge(0, 0), edge(2 * w, 0), edge(2 * w, h), edge(0, h)}));
+    p.seams.push_back({"lower front", {{band, 0, 0, 0.5}}, {{skirts, 2, 0, 1}}});
+    p.seams.push_back({"lower back", {{band, 0, 0.5, 1}}, {{skirts + 1, 2, 0, 1}}});
+    p.seams.push_back({"upper front", {{band, 2, 1, 0.5}}, {{0, 0, 1, 0}}});
+    p.seams.push_back({"upper back", {{band, 2, 0.5, 0}}, {{1, 0, 1, 0}}});
+    checkPattern(p);
+    const PlacedPanels placed = placePanels(p, form);
+    const auto z = [&](int k, Vec2 x) { return placed.bent[static_cast<std::size_t>(k)](x).z; };
+    const double low = z(band, {w, 0}), high = z(band, {w, h});
+    const double hem = std::min(z(0, {0, 0}), z(1, {0, 0})), top = z(skirts, {0, size.scale * 0.5});
+    EXPECT_LT(high, hem) << manikin << ": below the bodice";
+    EXPECT_GT(low, top) << manikin << ": above the skirt";
+    const double lumbar = form.origin(form.links({"torso"})[0]).z;
+    EXPECT_NEAR(low, lumbar + 0.04, 0.12) << manikin;
+    EXPECT_LT(depthInBody(p.panels[static_cast<std::size_t>(band)], placed.bent[static_cast<std::size_t>(band)], form)
+                  .depth_m,
+              -0.002);
+  }
+}
+
+/// Arms straight to the sides, and straight forward: the sleeve lies along the arm, open where the trunk is.
+TEST(PlacePanels, SleevesGoAlongArmsThatAreRaised) {
+  const Human human = makeManikin("male_p50");
+  for (const bool forward : {false, true}) {
+    Posture posture = withArmsAside(human, standing(human), forward ? 0 : 0.5 * std::numbers::pi);
+    if (forward)
+      for (const char* side : {"left", "right"})
+        posture.q[static_cast<std::size_t>(human.skeleton.joint(std::string("shoulder_flexion_") + side))] =
+            0.5 * std::numbers::pi;
+    const StandingBody form(human, posture);
+    const FlatPattern whole = shirt(sizeFor(form));
+    FlatPattern p = whole;
+    if (forward) p.panels = {whole.panels[2], whole.panels[3]}, p.seams.clear();  // arms are where the front would hang
+    const PlacedPanels placed = placePanels(p, form);
+    for (std::size_t k = p.panels.size() - 2; k < p.panels.size(); ++k) {
+      const bool is_left = k + 2 == p.panels.size();
+      const char* side = is_left ? "left" : "right";
+      const Vec3 shoulder = form.origin(form.link(std::string("upper_arm_") + side));
+      const Vec3 hand = form.origin(form.link(std::string("hand_") + side));
+      const Vec3 way = normalized(hand - shoulder), hem = placed.bent[k]({0, 0}), cap = placed.bent[k]({0, 0.4});
+      ASSERT_TRUE(std::isfinite(norm(hem) + norm(cap))) << side;
+      EXPECT_GT(dot(normalized(hem - cap), way), 0.999) << side;
+      const Vec3 arm = 0.5 * (shoulder + hand), off = hem - arm - dot(hem - arm, way) * way;
+      // Off the trunk: up where the arm is raised to the side, outward where it is raised forward.
+      const Vec3 out = forward ? Vec3{0, is_left ? 1.0 : -1.0, 0} : Vec3{0, 0, 1};
+      EXPECT_GT(dot(normalized(off), out), 0.9) << side << (forward ? ", forward" : ", to the side");
+    }
+  }
+}
+
 /// Rectangles that are 4 cm narrower around than the hips are said to be, by the tape's own number.
 TEST(PanelFit, TellsWhereAndByHowMuch) {
   const Human human = makeManikin("female_p50");

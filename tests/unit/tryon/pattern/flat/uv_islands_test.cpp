@@ -86,6 +86,37 @@ TEST(UvIslands, ADiscIsSewnIntoARingAllAround) {
   EXPECT_NEAR(areaOf(flat.panels[1]), areaOf(m, 1), 1e-14);
 }
 
+/// A border of one name that runs over two islands of a patch is in both, part by part.
+TEST(UvIslands, NamedEdgesCrossFromIslandToIsland) {
+  ClothMesh m;
+  m.patch_names = {"front"};
+  for (int i = 0; i < 5; ++i)
+    for (const double y : {0.0, 1.0}) m.vertices.push_back({i * 1.0, y, 0});
+  for (int i = 0; i < 4; ++i)
+    for (const std::array<int, 3>& t :
+         {std::array{2 * i, 2 * i + 2, 2 * i + 3}, std::array{2 * i, 2 * i + 3, 2 * i + 1}}) {
+      m.triangles.push_back(t);
+      m.patch.push_back(0);
+      auto& uv = m.uv.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3& x = m.vertices[static_cast<std::size_t>(t[k])];
+        uv[k] = {x.x + (i < 2 ? 0 : 7), x.y};  // cut in the middle
+      }
+    }
+  m.lines = {{"hem", 0, {0, 2, 4, 6, 8}}, {"end", 0, {8, 9}}};
+  int mirrored = 0;
+  const ClothMesh islands = islandsOf(m, 1, mirrored);
+  ASSERT_EQ(islands.patch_names.size(), 2u);
+  ASSERT_EQ(islands.lines.size(), 3u);
+  EXPECT_EQ(islands.lines[0].name, "hem");
+  EXPECT_EQ(islands.lines[0].patch, 0);
+  EXPECT_EQ(islands.lines[0].vertices, (std::vector<int>{0, 2, 4}));
+  EXPECT_EQ(islands.lines[1].name, "hem");
+  EXPECT_EQ(islands.lines[1].patch, 1);
+  EXPECT_EQ(islands.lines[1].vertices, (std::vector<int>{4, 6, 8}));
+  EXPECT_EQ(islands.lines[2].patch, 1);
+}
+
 TEST(UvIslands, UvThatIsNoShapeIsSaid) {
   ClothMesh folded = uvCone();
   folded.uv[2][2] = folded.uv[3][1] = folded.uv[4][2];  // beyond the far side of the next
