@@ -97,12 +97,16 @@ std::string notesOf(const std::vector<std::string>& notes) {
 std::string foundText(const std::vector<std::string>& facts) {
   if (facts.empty()) return "";
   std::vector<std::pair<std::string, std::string>> groups;  // words, items
-  for (const std::string& fact : facts) {
+  const auto beginning = [](const std::string& fact) {
     const std::size_t colon = fact.find(": ");
-    const std::string about = colon == std::string::npos ? "" : fact.substr(0, colon);
+    return colon == std::string::npos ? std::string() : fact.substr(0, colon);
+  };
+  for (const std::string& fact : facts) {
+    std::string about = beginning(fact);
+    if (std::count_if(facts.begin(), facts.end(), [&](const auto& f) { return beginning(f) == about; }) < 2) about = "";
     auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return g.first == about; });
     if (group == groups.end()) group = groups.insert(group, {about, ""});
-    group->second += element("li", escape(about.empty() ? fact : fact.substr(colon + 2)));
+    group->second += element("li", escape(about.empty() ? fact : fact.substr(about.size() + 2)));
   }
   std::string body;
   for (const auto& [about, items] : groups)

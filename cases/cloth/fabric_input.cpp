@@ -214,6 +214,7 @@ Object fabricTable() {
           .flag("thickness_assumed", &F::thickness_assumed,
                 "nobody measured the thickness: finished runs say so of what was taken from the weight, and the "
                 "reports note it")
+          .unwritten()
           .number("density", &F::density_kg_per_m3, "kg/m^3", aboveTo(0, 3e4), "mass per volume")
           .in("density")
           .defaultsTo("required, or surface_density, or card")
@@ -272,10 +273,6 @@ Object fabricTable() {
   for (Field& f : table.fields)
     if (f.key == "poisson" || f.key == "jam_area" || f.key == "bending")
       f.write = [write = f.write](const void* in) { return static_cast<const F*>(in)->law ? std::nullopt : write(in); };
-    else if (f.key == "thickness_assumed")
-      f.write = [write = f.write](const void* in) {
-        return static_cast<const F*>(in)->thickness_assumed ? write(in) : std::nullopt;
-      };
   return table;
 }
 

@@ -18,7 +18,7 @@ struct ClearFeet {
   int* of_sample;
   char* inside;
   int samples;
-  Extent* extent;
+  BodyExtent* extent;
   int bodies;
 
   GAMBESON_HD void operator()(int i) const {
@@ -158,7 +158,7 @@ class BodyFeet {
     bodies_ = Buffer<BodySurface>(host_bodies_.size());
     ellipsoids_ = Buffer<EllipsoidBody>(host_ellipsoids_.size());
     body_of_obstacle_ = uploaded<Device>(queue, which);
-    extent_ = Buffer<Extent>(host_bodies_.size());
+    extent_ = Buffer<BodyExtent>(host_bodies_.size());
     slots_ = static_cast<int>(host_bodies_.size()) * mesh_.samples;
     const std::size_t n = size(slots_);
     candidate_slot_ = Buffer<int>(n), candidate_begin_ = Buffer<int>(n);
@@ -247,7 +247,7 @@ class BodyFeet {
   Buffer<BodySurface> bodies_;
   Buffer<EllipsoidBody> ellipsoids_;
   Buffer<int> body_of_obstacle_;
-  Buffer<Extent> extent_;
+  Buffer<BodyExtent> extent_;
   int slots_ = 0;  ///< of bodies and samples
   Buffer<int> candidate_slot_, candidate_begin_, feet_slot_, feet_begin_;
   Buffer<char> seen_, outside_, outside_then_;

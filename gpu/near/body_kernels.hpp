@@ -17,7 +17,7 @@ GAMBESON_HD inline double motionBound(const Box& local, const Placement& start, 
 }
 
 /// Of the vertices of a body: bounds at the start, and the largest way squared (raise.hpp).
-struct Extent {
+struct BodyExtent {
   Count less[3];  ///< of the negative coordinates
   Count more[3];
   Count way2;
@@ -46,7 +46,7 @@ struct FindExtent {
   const BodySurface* body;
   int which;
   const Vec3 *x0, *x1;
-  Extent* extent;
+  BodyExtent* extent;
 
   GAMBESON_HD void operator()(int part) const {
     const BodySurface& b = body[which];
@@ -61,7 +61,7 @@ struct FindExtent {
       box.add(x0[b.first_vertex + b.named[k]]);
       any = true;
     }
-    Extent& e = extent[which];
+    BodyExtent& e = extent[which];
     raise(&e.way2, inOrder(way2));
     for (int k = 0; k < 3 && any; ++k) {
       raise(&e.less[k], inOrder(-box.lo[k]));
@@ -74,7 +74,7 @@ struct EndBodies {
   BodySurface* body;
   int bodies;
   EllipsoidBody* ellipsoid;
-  const Extent* extent;
+  const BodyExtent* extent;
   const Vec3* x0;
 
   GAMBESON_HD void operator()(int i) const {
@@ -90,7 +90,7 @@ struct EndBodies {
       b.view.x = b.at;
       return;
     }
-    const Extent& e = extent[i];
+    const BodyExtent& e = extent[i];
     for (int k = 0; k < 3; ++k) {
       b.bounds.lo[k] = -fromOrder(e.less[k]);
       b.bounds.hi[k] = fromOrder(e.more[k]);

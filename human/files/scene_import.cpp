@@ -116,7 +116,7 @@ void checkIndices(std::string_view obj, const std::string& file) {
 std::string inWords(const std::string& said) {
   static const std::regex outside(R"(mFaces\[(\d+)\]::mIndices\[\d+\] is out of range)");
   if (std::smatch found; std::regex_search(said, found, outside))
-    return "face " + found[1].str() + " (the first is 0) names a vertex that the file does not have";
+    return "face " + found[1].str() + ": names a vertex that the file does not have; the first face is 0";
   for (const char* none : {"mNumMeshes is 0", "contains no faces", "no faces"})
     if (said.find(none) != std::string::npos)
       return "holds no surface: triangles or polygons between vertices are needed";

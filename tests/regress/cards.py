@@ -67,7 +67,7 @@ def try_case(folder, case, key, limits, expected, who="Limited cloth (card limit
     # The card has no thickness: the run and its page say what is taken; so does a check of the case.
     if "card" in json.dumps(case):
         said = run("check", "case.json", cwd=folder)
-        for text in (done.stderr, page, said.stderr):
+        for text in (done.stderr, page, said.stdout):
             check("1.75 mm is assumed" in text, f"the thickness is not said to be assumed: {text[:2000]}")
     else:
         check("is assumed, the weight" not in done.stderr + page, "a given thickness is said to be assumed")

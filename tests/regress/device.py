@@ -147,7 +147,7 @@ def study_of(folder, duration, pictures=()):
 
 def stopped_study(folder):
     """The process that makes the runs ends with its study, however that ends; --resume goes on to the same bits."""
-    _, study = study_of(folder, "0.3 s")
+    _, study = study_of(folder, "0.18 s")
     words = ("--jobs", 2, "--threads", 2, *ON)
     whole = run("study", study, "--out", folder / "whole", *words)
     check(whole.returncode == 0, f"{whole.stdout} {whole.stderr}")

@@ -135,7 +135,7 @@ REFUSED = [
     (("a.obj", "v 0 0 0\n"), ["a.obj"]),
     (("far.obj", OBJ.replace("f 1 2 3", "f 1 2 9")), ["far.obj"]),
     (("far.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 2\n"
-      "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 9\n"), ["far.ply: face 1 (the first is 0) names a vertex"]),
+      "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 9\n"), ["far.ply: face 1: names a vertex"]),
     (("a.urdf", "<robot name='x'/>"), ["a.urdf:1"]),
     (("g.json", '{"format": "gambeson garment 1", "name": "", "patches": [], "seams": []}'), ["g.json: patches"]),
     (("l.law.json", (LIBRARY / "laws/spun.law.json").read_text().replace('"J/m^2"', '"kJ/m^2"')), ["l.law.json:"]),

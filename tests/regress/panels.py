@@ -109,6 +109,8 @@ def main():
                            {"name": "dart", "a": ["front.3"], "b": ["front.4 reversed"], "use": "dart"}]
         done, place = worn(folder, "dart", darted)
         sound(done, place / "out", "the tube with a dart")
+        again = run("check", place / "out/case.json", cwd=folder)
+        check(again.returncode == 0, f"the case of the results gave {again.returncode}: {again.stderr}")
 
         # Two darts of 3 mm on 5 cm, with a strip of 9 mm between them, and a band from 4 to 14 mm: all less than a cell wide.
         narrow = pattern(0.53 * girth)

@@ -67,7 +67,7 @@ void addSamplesAndSeams(Table<GarmentCase>& table) {
   numberOfSome(table,
                fieldOf("seam_stiffness", Kind::number, "N/rad", between(0, 1e4),
                        "rotational spring of seams that meet at an angle: moment per length and angle"),
-               &G::seam_stiffness_N, [](const G& g) { return !kindOf(g).isMesh(); });
+               &G::seam_stiffness_N, [](const G& g) { return !kindOf(g).isMesh() && !kindOf(g).sewn; });
 }
 
 }  // namespace

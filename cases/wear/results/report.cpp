@@ -298,7 +298,10 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
     in.warnings.push_back(
         fmt::format("The run stopped at {:.2f} s of {:.2f} s: what follows is only what was recorded until then.",
                     m.recorded_end_s, s.end_s));
-  for (const std::string& note : s.notes) in.notes.push_back(capital(note) + ".");
+  for (const std::string& note : s.notes) {
+    const bool key = note.substr(0, note.find(' ')).find('.') != std::string::npos;  // "fabric.thickness: .."
+    in.notes.push_back((key ? note : capital(note)) + ".");
+  }
   in.found = s.facts;
   sayPlayed(m, in);
   in.audit = auditOf(m);

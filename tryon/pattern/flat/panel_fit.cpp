@@ -36,7 +36,7 @@ double widest(const LaidPanel& p) {
 
 std::vector<PanelGirth> panelGirths(const FlatPattern& pattern, const std::vector<LaidPanel>& front,
                                     const std::vector<LaidPanel>& back, const StandingBody& form) {
-  constexpr double kSide = 0.7, kInside_m = 0.01, kNear_m = 0.12, kNearChest_m = 0.15;
+  constexpr double kSide = 0.7, kInside_m = 0.01, kNear_m = 0.12, kNearChest_m = 0.15, kStep_m = 0.005, kSeam_m = 0.03;
   std::vector<PanelGirth> out;
   const std::vector<SeamPair> pairs = seamPairs(pattern);
   const Skeleton& skeleton = form.human().skeleton;
@@ -75,9 +75,15 @@ std::vector<PanelGirth> panelGirths(const FlatPattern& pattern, const std::vecto
                 {"hip", 0.5 * (form.origin(thigh[0]).z + form.origin(thigh[1]).z), kNear_m}};
   for (const auto& level : levels) {
     if (!(high - low > 4 * kInside_m)) break;
-    const double z = std::clamp(level.z, low + kInside_m, high - kInside_m);
+    const auto all = [&](double z) { return widthOf(z, [](const LaidPanel&) { return true; }); };
+    double z = std::clamp(level.z, low + kInside_m, high - kInside_m);
     if (std::abs(z - level.z) > level.near_m) continue;
-    const double panels = widthOf(z, [](const LaidPanel&) { return true; });
+    // Where a seam around the body crosses the level, neither what is above it nor what is below is there whole.
+    const double middle = z;
+    double panels = all(z);
+    for (double off = kStep_m; off <= kSeam_m; off += kStep_m)
+      for (const double at : {middle + off, middle - off})
+        if (at > low + kInside_m && at < high - kInside_m && all(at) > panels + kStep_m) z = at, panels = all(at);
     const double body = tapeGirth(form.level(z, {pelvis, torso, thigh[0], thigh[1]}));
     if (panels > 0 && body > 0) out.push_back({level.name, z, body, panels});
   }

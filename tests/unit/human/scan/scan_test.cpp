@@ -413,7 +413,7 @@ TEST(RealScans, GarmentCodesMeanBodyHasItsPublishedGirths) {
   EXPECT_LE(stands, scanned + 12e-4);  // 181 cm^2 with arms at 20 degrees
   const double arms = abductionStanding(h);
   EXPECT_GT(arms, 30);
-  EXPECT_LT(arms, 42.5);
+  EXPECT_LE(arms, report.arms_deg);  // at 35 degrees 7 cm^2 more of it would fold
   EXPECT_EQ(compared, 6);
 }
 

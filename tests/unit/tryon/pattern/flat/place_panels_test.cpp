@@ -325,5 +325,32 @@ TEST(PanelFit, TellsWhereAndByHowMuch) {
   EXPECT_EQ(shortText(panelGirths(p, wider.front, wider.back, form)), "");
 }
 
+/// A panel whose outline is cut in by 20 cm over 2 cm of height, as at a seam around the body between curved edges.
+TEST(PanelFit, ASeamAroundTheBodyIsNoWaist) {
+  const Human human = makeManikin("female_p50");
+  const StandingBody form(human, standing(human));
+  const StandingBody::Links around = form.links({"pelvis", "torso", "thigh_left", "thigh_right"});
+  const double hip = form.origin(around[2]).z, girth = tapeGirth(form.level(hip, around));
+  Size s;
+  s.quarter_waist = s.quarter_hem = 0.25 * (girth + 0.01);
+  const FlatPattern p = skirt(s);
+  PlacedPanels placed = placePanels(p, form);
+  EXPECT_EQ(shortText(panelGirths(p, placed.front, placed.back, form)).find("at the hip"), std::string::npos);
+  std::vector<Vec2>& outline = placed.front[0].outline;
+  std::size_t left = 0;  // begin of the edge that passes the hip at the left
+  double least = 1e300;
+  for (std::size_t k = 0; k < outline.size(); ++k) {
+    const Vec2 a = outline[k], b = outline[(k + 1) % outline.size()];
+    if ((a.y - hip) * (b.y - hip) < 0 && std::min(a.x, b.x) < least) left = k, least = std::min(a.x, b.x);
+  }
+  const Vec2 a = outline[left], b = outline[(left + 1) % outline.size()];
+  const double up = b.y > a.y ? 0.01 : -0.01;
+  const auto on = [&](double y) { return a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y); };
+  const std::vector<Vec2> cut = {{on(hip - up), hip - up}, {on(hip) + 0.2, hip}, {on(hip + up), hip + up}};
+  outline.insert(outline.begin() + static_cast<std::ptrdiff_t>(left) + 1, cut.begin(), cut.end());
+  const std::string text = shortText(panelGirths(p, placed.front, placed.back, form));
+  EXPECT_EQ(text.find("at the hip"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace gambeson
