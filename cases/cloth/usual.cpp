@@ -56,7 +56,7 @@ void warnOf(const Usual& usual, const std::string& unit, const Entry& entry, std
     return;
   }
   if (usual.range.contains(typed.si)) return;
-  const std::string value = text ? entry.node.text : fmt::format("{} {}", entry.node.number, unit);
+  const std::string value = text ? entry.node.text : fmt::format("{:.6g} {}", entry.node.number, unit);
   warnings.push_back(InputError(
       {entry.node.line == 0 ? "command line" : entry.file, entry.node.line, entry.path},
       fmt::format("{} is unusual: fabrics have {}; check its unit", value, schema::rangeText(usual.range, typed))));

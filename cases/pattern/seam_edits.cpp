@@ -28,6 +28,7 @@ int seamOf(const InputError& e, std::string& rest) {
 /// The seam that a text names, by its name or by an edge that is sewn in it.
 std::size_t find(const FlatPattern& pattern, const std::string& text) {
   std::vector<std::string> names;
+  if (text.empty()) reject("seam", "is empty; allowed: the name of a seam, or an edge that is sewn, as \"front.3\"");
   for (std::size_t k = 0; k < pattern.seams.size(); ++k) {
     if (pattern.seams[k].name == text) return k;
     if (!pattern.seams[k].name.empty()) names.push_back(pattern.seams[k].name);

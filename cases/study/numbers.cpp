@@ -143,6 +143,7 @@ Trust RunNumbers::trust() const {
   Trust t;
   for (const CheckNumbers& c : checks) t.check(c.holds, checkWords(c.name, c.value, c.limit, c.unit).order);
   for (const Stretch& s : stretch) t.stretch(s);
+  t.unplayed = !played;
   return t;
 }
 
@@ -229,6 +230,10 @@ RunNumbers readRun(const std::filesystem::path& folder) {
       run.stress.push_back({s.at("region").text(), s.at("p50_N_per_m").number(), s.at("p95_N_per_m").number(),
                             s.at("p99_N_per_m").number(), s.at("max_N_per_m").number(),
                             optional(s, "p99_strain").value_or(std::nan("")), s.at("max_strain").number()});
+    if (j.contains("played")) {
+      const std::string played = j.at("played").text();
+      run.played = played != "nothing" && played != "the lead-in";
+    }
     for (const Json& s : j.at("stretch").list())
       run.stretch.push_back({s.at("limit").number(), s.at("p99_strain").number(), s.at("max_strain").number(),
                              s.at("stated").flag(), s.at("garment").text(), s.at("along").text()});

@@ -68,7 +68,8 @@ struct CheckNumbers {
 
 struct RunNumbers {
   bool good = false;
-  std::string why;  ///< where it is not good
+  std::string why;     ///< where it is not good
+  bool played = true;  ///< the motion went beyond its lead-in
   double recorded_to_s = 0, planned_to_s = 0, counted_from_s = 0;
   int control_points = 0;
   std::vector<GarmentNumbers> garments;

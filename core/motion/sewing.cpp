@@ -6,9 +6,6 @@
 namespace gambeson {
 namespace {
 
-/// Entries of the factor, of a row, that a solution reads: twice those beside the diagonal, some 30 of seams that meet.
-constexpr std::size_t kFactorReads = 64;
-
 std::size_t garmentsOf(const Model& m) {
   return static_cast<std::size_t>(*std::max_element(m.sewn_garment.begin(), m.sewn_garment.end())) + 1;
 }
@@ -119,47 +116,14 @@ void SewnHold::touch(std::span<const int> points) {
   for (std::size_t k = 0; k < points_.size(); ++k)
     if (std::binary_search(model_.sewing.points().begin(), model_.sewing.points().end(), points_[k]))
       sewn_.push_back(static_cast<int>(k));
-  held_ = 0;
-  matrix_.clear();
 }
 
 void SewnHold::holdTouched(std::span<Vec3> change) const {
-  const std::size_t n = sewn_.size();
-  if (n == 0) return;
-  if (matrix_.empty() && 3 * held_++ >= n && n * n <= kFactorReads * static_cast<std::size_t>(model_.sewing.rows()))
-    makeMatrix();
-  if (!matrix_.empty()) {
-    before_.clear();
-    for (const int k : sewn_) before_.push_back(change[static_cast<std::size_t>(k)]);
-    for (std::size_t r = 0; r < n; ++r) {
-      Vec3 sum;
-      for (std::size_t c = 0; c < n; ++c) sum += matrix_[r * n + c] * before_[c];
-      change[static_cast<std::size_t>(sewn_[r])] = sum;
-    }
-    return;
-  }
   const auto at = [&](int k) -> Vec3& { return all_[static_cast<std::size_t>(points_[static_cast<std::size_t>(k)])]; };
   for (const int i : model_.sewing.points()) all_[static_cast<std::size_t>(i)] = {};
   for (const int k : sewn_) at(k) = change[static_cast<std::size_t>(k)];
   model_.sewing.hold(all_, open_, work_);
   for (const int k : sewn_) change[static_cast<std::size_t>(k)] = at(k);
-}
-
-// Rows of seams act on each axis alike, so that the three axes of one solution are three columns.
-void SewnHold::makeMatrix() const {
-  const std::size_t n = sewn_.size();
-  matrix_.assign(n * n, 0.0);
-  const auto at = [&](std::size_t k) -> Vec3& {
-    return all_[static_cast<std::size_t>(points_[static_cast<std::size_t>(sewn_[k])])];
-  };
-  for (std::size_t c = 0; c < n; c += 3) {
-    const std::size_t axes = std::min<std::size_t>(3, n - c);
-    for (const int i : model_.sewing.points()) all_[static_cast<std::size_t>(i)] = {};
-    for (std::size_t a = 0; a < axes; ++a) at(c + a)[static_cast<int>(a)] = 1;
-    model_.sewing.hold(all_, open_, work_);
-    for (std::size_t r = 0; r < n; ++r)
-      for (std::size_t a = 0; a < axes; ++a) matrix_[r * n + c + a] = at(r)[static_cast<int>(a)];
-  }
 }
 
 bool contactsMeetSeams(const Model& m, std::span<const ContactRow> rows) {

@@ -45,9 +45,7 @@ double sewingWork(const Model& model, double dt_s, std::span<const Vec3> foresee
 /// The largest gap between the hats of any seam, in sides of its cell, with the free points at p (SewnRows::pairs).
 double widestGap(const Model& model, std::span<const Vec3> p);
 
-/// The seams in the place of M^-1 for contacts. Of the sewn points that are touched it makes a matrix of what they do
-/// to each other, P of those alone, once they have been held so often that its columns cost no more (a solution of the
-/// seams' rows for every three), where it is smaller than the factor: hundreds of sweeps beside seams then read that.
+/// The seams in the place of M^-1 for contacts.
 class SewnHold : public ProjectingHold {
  public:
   /// `open`: rows that it leaves out (work.sewn_open). Lives no longer than both.
@@ -58,17 +56,12 @@ class SewnHold : public ProjectingHold {
   void holdTouched(std::span<Vec3> change) const override;
 
  private:
-  void makeMatrix() const;
-
   const Model& model_;
   std::span<const char> open_;
   std::vector<int> points_;
   std::vector<int> sewn_;  ///< of these, which a seam takes hold of: place in points_
   mutable SewnProjection::Work work_;
   mutable std::vector<Vec3> all_;
-  mutable std::size_t held_ = 0;        ///< times since touch
-  mutable std::vector<double> matrix_;  ///< of sewn_, by rows; empty: not made
-  mutable std::vector<Vec3> before_;    ///< change of sewn_
 };
 
 /// Whether contacts act on points that a seam takes hold of.

@@ -144,12 +144,17 @@ void fields(A& a, T& e) {
   auto& [patch, side, reversed] = e;
   a("patch", patch)("side", side)("reversed", reversed);
 }
-/// Lines are for supports, which are made from the case.
+template <class A, Of<EdgePlace> T>
+void fields(A& a, T& p) {
+  auto& [patch, uv] = p;
+  a("patch", patch)("uv", uv);
+}
+/// Supports of results are made of these, those on edges of panels of lines.
 template <class A, Of<NamedEdge> T>
 void fields(A& a, T& e) {
   auto& [name, edges, lines] = e;
-  static_cast<void>(lines);
   a("name", name)("edges", edges);
+  if (a.has("lines")) a("lines", lines);  // recordings from before have none
 }
 template <class A, Of<Seam> T>
 void fields(A& a, T& s) {
@@ -179,7 +184,7 @@ void fields(A& a, T& g) {
          placed, sewn_seams] = g;
   a("name", name)("patches", patches)("seams", seams)("weft", weft)("trims", trims)("weak_seams", weak_seams);
   a("layer", garment_of_patch)("patch_names", patch_names)("edges", edges)("placed", placed);
-  a("sewn_seams", sewn_seams);
+  if (a.has("sewn_seams")) a("sewn_seams", sewn_seams);  // recordings from before have none
 }
 template <class A, Of<MeshLine> T>
 void fields(A& a, T& l) {

@@ -99,9 +99,15 @@ void measureStretch(const Scenario& s, const RecordingReader& recording, Measure
       continue;
     }
     for (std::size_t d = 0; d < 2; ++d) {
+      // The range of a law is no limit that anyone stated.
+      const auto states = [&](const FabricCase& f) {
+        return (d == 0 ? f.limit_strain_weft : f.limit_strain_warp) == limits[d] && !f.limit_of_law[d];
+      };
       out.stretch.push_back(largestOf(s, directed[d], k));
       out.stretch.back().limit = limits[d].value_or(kStrainOfLaw);
-      out.stretch.back().stated = limits[d].has_value();
+      out.stretch.back().stated =
+          limits[d] && (states(fabricOf(c, garment)) ||
+                        std::any_of(garment.other_fabrics.begin(), garment.other_fabrics.end(), states));
       out.stretch.back().along = d == 0 ? "weft" : "warp";
     }
   }

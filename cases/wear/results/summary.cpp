@@ -272,7 +272,7 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
   for (const JointMeasure& joint : m.joints) j["joints"].push_back(jointJson(joint, m.strides, s.definition.comfort));
   if (const JointMeasure* top = m.highest()) j["highest"] = top->name;
   const char* const played[]{"nothing", "the lead-in", "part of a stride", "strides"};
-  if (m.strides) j["played"] = played[static_cast<int>(m.played)];
+  if (m.strides || m.played == Measured::Played::nothing) j["played"] = played[static_cast<int>(m.played)];
   if (m.strides && m.played >= Measured::Played::part_of_a_stride)
     j["strides"] = {{"start_s", m.strides->start_s}, {"time_s", m.strides->time_s}, {"count", m.strides->count}};
   if (s.feet && m.playedToTheEnd(s))

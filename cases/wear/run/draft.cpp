@@ -65,7 +65,9 @@ std::vector<std::string> uncutText(const Case& c, const std::vector<Garment>& dr
             "{}no flat cloth makes this draft: to lie flat it is stretched at {}; the fabric stands {:.3g} % "
             "({}). The run takes it as if woven in that shape; sewn, it needs darts or more panels there",
             worn.name.empty() ? "" : worn.name + ": ", beyond, 100 * stands,
-            f.limit_strain_weft || f.limit_strain_warp ? "limit_strain" : "the range of its law"));
+            (f.limit_strain_weft && !f.limit_of_law[0]) || (f.limit_strain_warp && !f.limit_of_law[1])
+                ? "limit_strain"
+                : "the range of its law"));
     } catch (const InputError& e) {
       notes.push_back(
           fmt::format("{}no flat cloth makes this draft: {}", worn.name.empty() ? "" : worn.name + ": ", e.reason()));

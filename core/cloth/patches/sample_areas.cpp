@@ -34,9 +34,15 @@ bool isRegular(const Eigen::SimplicialLDLT<Matrix>& factor, const Eigen::VectorX
 
 /// The function that the samples see least, of integral >= 0: inverse iteration from one that is everywhere.
 Eigen::VectorXd unseen(Matrix gram, const Eigen::VectorXd& A) {
-  for (long i = 0; i < gram.rows(); ++i) gram.coeffRef(i, i) *= 1 + 1e-12;
-  const Eigen::SimplicialLDLT<Matrix> factor(gram);
   Eigen::VectorXd y(A.size());
+  for (long i = 0; i < gram.rows(); ++i) {
+    double& own = gram.coeffRef(i, i);
+    if (own == 0) return Eigen::VectorXd::Unit(A.size(), i);  // no sample sees it at all
+    own *= 1 + 1e-12;
+  }
+  const Eigen::SimplicialLDLT<Matrix> factor(gram);
+  if (factor.info() != Eigen::Success)
+    throw InputError({"", 0, "sampling"}, "the surface samples do not tell the control points apart");
   for (long i = 0; i < y.size(); ++i) y(i) = std::sin(1.0 + 2.3 * static_cast<double>(i));
   for (int k = 0; k < 5; ++k) y = factor.solve(y).normalized();
   return A.dot(y) < 0 ? Eigen::VectorXd(-y) : y;

@@ -36,7 +36,7 @@ double widest(const LaidPanel& p) {
 
 std::vector<PanelGirth> panelGirths(const FlatPattern& pattern, const std::vector<LaidPanel>& front,
                                     const std::vector<LaidPanel>& back, const StandingBody& form) {
-  constexpr double kSide = 0.7, kInside_m = 0.01, kNear_m = 0.12, kNearChest_m = 0.15, kStep_m = 0.005, kSeam_m = 0.03;
+  constexpr double kSide = 0.7, kInside_m = 0.01, kNear_m = 0.12, kNearChest_m = 0.15, kSeam_m = 0.03;
   std::vector<PanelGirth> out;
   const std::vector<SeamPair> pairs = seamPairs(pattern);
   const Skeleton& skeleton = form.human().skeleton;
@@ -79,11 +79,18 @@ std::vector<PanelGirth> panelGirths(const FlatPattern& pattern, const std::vecto
     double z = std::clamp(level.z, low + kInside_m, high - kInside_m);
     if (std::abs(z - level.z) > level.near_m) continue;
     // Where a seam around the body crosses the level, neither what is above it nor what is below is there whole.
-    const double middle = z;
-    double panels = all(z);
-    for (double off = kStep_m; off <= kSeam_m; off += kStep_m)
-      for (const double at : {middle + off, middle - off})
-        if (at > low + kInside_m && at < high - kInside_m && all(at) > panels + kStep_m) z = at, panels = all(at);
+    double lowest = z, highest = z;
+    for (const SeamPair& p : pairs)
+      for (const auto* half : {&front, &back})
+        for (const LaidPanel& one : *half)
+          for (const LaidPanel& other : *half)
+            if (p.a == one.panel && p.b == other.panel && std::abs(one.turn(p.na).y) > kSide &&
+                std::abs(one.of(p.xa).y - level.z) < kSeam_m)
+              for (const double y : {one.of(p.xa).y, other.of(p.xb).y})
+                lowest = std::min(lowest, y - kInside_m), highest = std::max(highest, y + kInside_m);
+    const bool up = lowest < low || (highest < high && highest - z < z - lowest);
+    if (highest > lowest) z = up ? highest : lowest;
+    const double panels = all(z);
     const double body = tapeGirth(form.level(z, {pelvis, torso, thigh[0], thigh[1]}));
     if (panels > 0 && body > 0) out.push_back({level.name, z, body, panels});
   }

@@ -17,8 +17,9 @@ struct PanelGirth {
 };
 
 /// At chest, waist and hip where side seams close panels to a ring within 12 cm (chest: 15 cm) of there, measured at
-/// the nearest such height, or within 3 cm of it where a seam around the body leaves less of both its sides; around thighs and upper arms where panels cover legs and arms: of a sleeve its widest line.
-/// The chest is measured without arms, each hull as a tape lies. Folds, darts that are not cut and curves of the body
+/// the nearest such height, or beside a seam around the body that lies within 3 cm of it, where neither side is whole;
+/// around thighs and upper arms where panels cover legs and arms: of a sleeve its widest line. The chest is measured
+/// without arms, each hull as a tape lies. Folds, darts that are not cut and curves of the body
 /// within a panel are not seen: what is short here is short, what is not may be.
 std::vector<PanelGirth> panelGirths(const FlatPattern& pattern, const std::vector<LaidPanel>& front,
                                     const std::vector<LaidPanel>& back, const StandingBody& form);

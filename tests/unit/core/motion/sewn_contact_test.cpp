@@ -77,32 +77,6 @@ TEST(SewnContact, ATubeOfTwoPanelsMovesAsWithoutContact) {
   EXPECT_GT(moved, 0.1);
 }
 
-TEST(SewnContact, WhatIsHeldOftenIsHeldAlike) {
-  // Sewn points and others, few enough for a matrix of their own.
-  const Garment g = tube(0);
-  const Motion m = placed(g, false);
-  const std::vector<char> open(static_cast<std::size_t>(m.model->sewing.rows()), 0);
-  SewnHold hold(*m.model, open);
-  std::vector<int> points;
-  for (int i = 0; i < m.model->freeCount(); i += 3) points.push_back(i);
-  hold.touch(points);
-  std::vector<Vec3> from, first;
-  for (const int i : points) from.push_back({std::sin(1.0 * i), std::cos(2.0 * i), std::sin(3.0 * i)});
-  double off = 0, taken = 0;
-  for (int k = 0; k < 40; ++k) {
-    std::vector<Vec3> change = from;
-    hold.holdTouched(change);
-    if (k == 0) first = change;
-    for (std::size_t j = 0; j < change.size(); ++j) {
-      off = std::max(off, norm(change[j] - first[j]));
-      taken = std::max(taken, norm(change[j] - from[j]));
-    }
-  }
-  EXPECT_GT(taken, 0.1);
-  EXPECT_GT(off, 0) << "no matrix was made";
-  EXPECT_LT(off, 1e-14);
-}
-
 TEST(SewnContact, WithoutTwinsTheSidesOfASeamRepelEachOther) {
   Motion m = placed(tube(1e-2), true);
   m.model->collisions.mesh.twins = {};

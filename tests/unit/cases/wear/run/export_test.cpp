@@ -190,10 +190,11 @@ TEST_F(Export, AnimationsKeepBelowTheirLargestSize) {
   const GlbSize size = glbSize(animationOf(*run.scenario, run.recording, two).scene);
   EXPECT_NEAR(size.bytes(frames), whole, 0.01 * whole);
   o.glb = folder_->path() / "part.glb";
-  o.largest_glb = size.bytes(3) + 1;
+  o.largest_glb = (size.bytes(3) + 1) / 0.99;  // a hundredth is left for what is not known of it
   exportResults(o);
   const std::string part = content(o.glb.string());
-  EXPECT_NEAR(static_cast<double>(part.size()), o.largest_glb, 0.01 * o.largest_glb);
+  EXPECT_LE(static_cast<double>(part.size()), o.largest_glb);
+  EXPECT_GE(static_cast<double>(part.size()), 0.98 * o.largest_glb);
   EXPECT_EQ(GlbReader(part).times().size(), 3u);
   o.largest_glb = 1000;
   EXPECT_THROW(exportResults(o), RunError);
