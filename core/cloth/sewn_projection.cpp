@@ -93,6 +93,30 @@ SewnProjection::SewnProjection(SparseRows C, std::vector<double> inverse_mass)
   }
 }
 
+SparseRows SewnProjection::ties(double least) const {
+  SparseRows H;
+  H.column_count = C_.column_count;
+  std::vector<Vec3> lambda(static_cast<std::size_t>(rows())), moved(points_.size()), scratch;
+  const auto root = [&](std::size_t k) { return std::sqrt(inverse_mass_[points_[k]]); };
+  for (std::size_t first = 0; first < points_.size(); first += 3) {
+    const std::size_t count = std::min<std::size_t>(3, points_.size() - first);  // columns, solved side by side
+    std::fill(lambda.begin(), lambda.end(), Vec3{});
+    for (std::size_t c = 0; c < count; ++c)
+      for (int e = Ct_.offsets[first + c]; e < Ct_.offsets[first + c + 1]; ++e)
+        lambda[Ct_.columns[e]][static_cast<int>(c)] += Ct_.values[e] * inverse_mass_[points_[first + c]];
+    factor_.solve(lambda, scratch);
+    Ct_.multiply<Vec3>(lambda, moved);
+    for (std::size_t c = 0; c < count; ++c) {
+      for (std::size_t k = 0; k < points_.size(); ++k) {
+        const double value = inverse_mass_[points_[k]] * moved[k][static_cast<int>(c)];
+        if (std::abs(value) > least * root(k) * root(first + c)) H.add(points_[k], value);
+      }
+      H.endRow();
+    }
+  }
+  return H;
+}
+
 void SewnProjection::gaps(std::span<const Vec3> x, std::vector<Vec3>& g) const {
   g.resize(static_cast<std::size_t>(rows()));
   C_.multiply<Vec3>(x, g);

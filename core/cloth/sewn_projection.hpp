@@ -29,6 +29,11 @@ class SewnProjection {
   int dependent() const { return factor_.leftOut(); }
   /// Points that some row takes hold of, ascending.
   const std::vector<int>& points() const { return points_; }
+  /// A row that takes hold of points()[k].
+  int rowOf(std::size_t k) const { return Ct_.columns[Ct_.offsets[k]]; }
+  /// What the rows take of the mobility, H = W C^T (C W C^T)^-1 C W with v' = (W - H) i of impulses i: a row for each
+  /// of points(), less entries below `least` sqrt(W_i W_j). They fall off along a seam, by 4 or so from hat to hat.
+  SparseRows ties(double least) const;
 
   /// C x.
   void gaps(std::span<const Vec3> x, std::vector<Vec3>& g) const;

@@ -23,7 +23,14 @@ inline double sumOfParts(double* part, int width) {
   return part[0];
 }
 
-/// What a change of a row's traction does to the points.
+/// What a change of a row's traction does to the points, with what goes along with them where they are held.
+inline void pushHeld(ContactWork& w, int row, const Vec3& change) {
+  const V4 impulse = w.row_area[row] * V4{change.x, change.y, change.z, 0};
+  for (int e = w.pushes.offsets[row]; e < w.pushes.offsets[row + 1]; ++e)
+    quad(w.moved[w.pushes.columns[e]]) += w.pushes.values[e] * impulse;
+}
+
+/// The same where nothing holds them.
 inline void push(ContactWork& w, int row, const Vec3& change) {
   const V4 impulse = w.row_area[row] * V4{change.x, change.y, change.z, 0};
   for (int e = w.points.offsets[row]; e < w.points.offsets[row + 1]; ++e) {
@@ -43,8 +50,8 @@ GAMBESON_WIDE void extrapolatePoints(ContactWork& w, double beta, int begin, int
 
 /// Takes the rows of a chunk from where they go on to, by beta of their last change. Sets the largest squared residual
 /// as the rows found it, and the product that tells whether the step went against the gradient.
-GAMBESON_WIDE void sweepRows(ContactWork& w, double beta, double caution, int begin, int end, double& largest2_out,
-                             double& against_out) {
+GAMBESON_WIDE void sweepRows(ContactWork& w, bool held, double beta, double caution, int begin, int end,
+                             double& largest2_out, double& against_out) {
   double largest2 = 0, against[kSumLanes];
   const int width = std::min<int>(kSumLanes, std::bit_ceil(static_cast<unsigned>(end - begin)));
   std::fill_n(against, width, 0.0);
@@ -57,7 +64,11 @@ GAMBESON_WIDE void sweepRows(ContactWork& w, double beta, double caution, int be
     against[(k - begin) % kSumLanes] += againstGradient(w.row_area[k], bound, way, next - now);
     w.previous[k] = w.candidate[k];
     w.candidate[k] = quadOf(next);
-    if (!(way == Vec3{})) push(w, k, way);
+    if (way == Vec3{}) continue;
+    if (held)
+      pushHeld(w, k, way);
+    else
+      push(w, k, way);
   }
   largest2_out = largest2;
   against_out = sumOfParts(against, width);
@@ -82,18 +93,14 @@ struct Alone {
     visit(island.free_point, island.free_end);
   }
   void wait() const {}
-  void start(ContactWork&) const {}
-  void finish(ContactWork&) const {}
+  void finish(const Island&, bool, ContactWork&) const {}
 };
-/// With a hold that projects, which takes its part of what each sweep has changed.
+/// Where points are held: the sweep's pushes are near to what the hold does; this is what it does, now and then and
+/// wherever someone looks.
 struct Held : Alone {
-  mutable std::vector<Quad> swept_from;  ///< of the free points
-  void start(ContactWork& w) const { swept_from = w.moved; }
-  void finish(ContactWork& w) const {
-    w.change.resize(w.free_points.size());
-    for (std::size_t f = 0; f < w.free_points.size(); ++f) w.change[f] = vec(w.moved[f]) - vec(swept_from[f]);
-    w.hold->holdTouched(w.change);
-    for (std::size_t f = 0; f < w.free_points.size(); ++f) w.moved[f] = quadOf(vec(swept_from[f]) + w.change[f]);
+  void finish(const Island& island, bool looks, ContactWork& w) const {
+    constexpr int kSweeps = 8;
+    if (looks || island.iterations % kSweeps == kSweeps - 1) moveHeld(w.candidate, island, w, w.moved);
   }
 };
 struct Together {
@@ -114,8 +121,7 @@ struct Together {
   void wait() const {
 #pragma omp barrier
   }
-  void start(ContactWork&) const {}
-  void finish(ContactWork&) const {}
+  void finish(const Island&, bool, ContactWork&) const {}
 };
 
 /// Together, every thread takes every decision, from the same sums in the same order.
@@ -135,13 +141,13 @@ void iterateIsland(const SweepLimits& limits, Island& now, ContactWork& w, const
   while (goesOn(now, limits)) {
     const double caution = cautionOf(now);
     each.points(now, [&](int f, int end) { extrapolatePoints(w, now.beta, f, end); });
-    each.start(w);
     each(w, now, [&](int c) {
-      sweepRows(w, now.beta, caution, w.chunks[c].row, w.chunks[c + 1].row, w.largest2[c], w.against[c]);
+      sweepRows(w, now.held, now.beta, caution, w.chunks[c].row, w.chunks[c + 1].row, w.largest2[c], w.against[c]);
     });
     const double against = sumOf();
-    each.finish(w);
-    if (sweptWith(mostOf(), limits, now)) {
+    const bool looks = sweptWith(mostOf(), limits, now);
+    each.finish(now, looks, w);
+    if (looks) {
       each.wait();
       each(w, now, [&](int c) { w.largest2[c] = largestResidual2(w, w.chunks[c].row, w.chunks[c + 1].row); });
       lookedAt(mostOf(), limits, now);
@@ -170,11 +176,7 @@ Vec3 slipOf(const ContactWork& w, int row) {
 
 void iterate(double goal, int last, int most, ContactWork& w) {
   const SweepLimits limits{goal, last, most - most / 4};
-  if (w.hold && w.hold->projects()) {
-    for (Island& island : w.islands) iterateIsland(limits, island, w, Held{});
-    return;
-  }
-  if (w.hold) {
+  if (w.hold && !w.hold->projects()) {
     iterateHeld(goal, last, w);
     return;
   }
@@ -186,6 +188,10 @@ void iterate(double goal, int last, int most, ContactWork& w) {
   int large = 0;
   for (; large < count && size(w.by_size[large]) > kLarge; ++large) {
     Island& island = w.islands[w.by_size[large]];
+    if (island.held) {
+      iterateIsland(limits, island, w, Held{});
+      continue;
+    }
 #pragma omp parallel
     {
       Island mine = island;
@@ -196,7 +202,13 @@ void iterate(double goal, int last, int most, ContactWork& w) {
     }
   }
 #pragma omp parallel for schedule(dynamic, 1) if (w.order.size() > kShared)
-  for (int i = large; i < count; ++i) iterateIsland(limits, w.islands[w.by_size[i]], w, Alone{});
+  for (int i = large; i < count; ++i) {
+    Island& island = w.islands[w.by_size[i]];
+    if (island.held)
+      iterateIsland(limits, island, w, Held{});
+    else
+      iterateIsland(limits, island, w, Alone{});
+  }
 }
 
 }  // namespace gambeson

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/contact/projecting_hold.hpp"
 #include "core/contact/row_order.hpp"
 #include "core/math/parallel.hpp"
 
@@ -101,10 +102,15 @@ std::span<const int> pointsOf(const ContactWork& w, int row) {
   return std::span(w.reach_point).subspan(static_cast<std::size_t>(w.reach[row].first), w.reach[row].count);
 }
 
+const ProjectingHold* projectingHold(const ContactWork& w) {
+  return w.hold && w.hold->projects() ? static_cast<const ProjectingHold*>(w.hold) : nullptr;
+}
+
 /// Sorts w.order by islands.
 void findIslands(int free_count, ContactWork& w) {
   w.islands.clear();
-  if (w.hold) {
+  const ProjectingHold* const projecting = projectingHold(w);
+  if (w.hold && !projecting) {
     if (!w.order.empty()) w.islands.emplace_back().row_end = static_cast<int>(w.order.size());
     return;
   }
@@ -116,6 +122,16 @@ void findIslands(int free_count, ContactWork& w) {
   };
   for (int i : w.order)
     for (int f : pointsOf(w, i)) w.tied_to[f] = f;
+  int held = -1;  // the root of what the hold takes hold of
+  if (projecting)
+    for (int i : w.order)
+      for (int f : pointsOf(w, i)) {
+        if (projecting->ties(f).points.empty()) continue;
+        f = root(f);
+        if (held < 0) held = f;
+        w.tied_to[std::max(held, f)] = std::min(held, f);
+        held = std::min(held, f);
+      }
   std::vector<int>& of = w.island_of;  // first a free point of the row, then its island
   of.resize(w.order.size());
   for (std::size_t k = 0; k < w.order.size(); ++k) {
@@ -133,7 +149,7 @@ void findIslands(int free_count, ContactWork& w) {
     int& number = w.number[root(f)];
     if (number < 0) {
       number = static_cast<int>(w.islands.size());
-      w.islands.emplace_back();
+      w.islands.emplace_back().held = held >= 0 && root(f) == root(held);
     }
     f = number;
     ++w.islands[f].row_end;
@@ -178,6 +194,42 @@ void touchPoints(int free_count, ContactWork& w) {
   w.columns = transpose(w.points);
 }
 
+/// w.pushes, where something projects: of held islands what goes along with the points of a row too.
+void pushPoints(std::span<const double> inverse_mass, ContactWork& w) {
+  const ProjectingHold* const projecting = projectingHold(w);
+  if (!projecting) return;
+  std::vector<PointTies> ties;
+  for (const int f : w.free_points) ties.push_back(projecting->ties(f));
+  SparseRows& pushes = w.pushes;
+  pushes.offsets.assign(1, 0);
+  pushes.columns.clear();
+  pushes.values.clear();
+  pushes.column_count = w.points.column_count;
+  w.push_at.assign(w.free_points.size(), -1);
+  for (int row = 0; row < w.points.rows(); ++row) {
+    const int begin = pushes.offsets.back();
+    const auto add = [&](int slot, double value) {
+      if (w.push_at[slot] < 0) {
+        w.push_at[slot] = static_cast<int>(pushes.columns.size());
+        pushes.add(slot, value);
+      } else {
+        pushes.values[w.push_at[slot]] += value;
+      }
+    };
+    for (int e = w.points.offsets[row]; e < w.points.offsets[row + 1]; ++e) {
+      const int slot = w.points.columns[e];
+      add(slot, w.points.values[e] * inverse_mass[w.free_points[slot]]);
+    }
+    for (int e = w.points.offsets[row]; e < w.points.offsets[row + 1]; ++e) {
+      const PointTies& of = ties[w.points.columns[e]];
+      for (std::size_t k = 0; k < of.points.size(); ++k)
+        if (const int slot = w.free_slot[of.points[k]]; slot >= 0) add(slot, -w.points.values[e] * of.values[k]);
+    }
+    for (std::size_t k = begin; k < pushes.columns.size(); ++k) w.push_at[pushes.columns[k]] = -1;
+    pushes.endRow();
+  }
+}
+
 }  // namespace
 
 Vec3 velocityAt(const ContactRow& row, const SparseRows& WT, std::span<const Vec3> velocity) {
@@ -220,6 +272,7 @@ void restrict(std::span<const ContactRow> rows, int free_count, std::span<const 
   findIslands(free_count, w);
   orderRows(rows, place, free_count, w);
   touchPoints(free_count, w);
+  pushPoints(inverse_mass, w);
   const int n = static_cast<int>(w.order.size()), touched = static_cast<int>(w.free_points.size());
   w.inverse_mass.resize(touched);
   for (auto* of_points : {&w.base, &w.moved, &w.moved_before}) of_points->resize(touched);
@@ -232,6 +285,7 @@ void restrict(std::span<const ContactRow> rows, int free_count, std::span<const 
   w.row_area.resize(n);
   w.traction.resize(n);
   for (auto* of_rows : {&w.point, &w.candidate, &w.previous}) of_rows->resize(n);
+  const SparseRows* const pushes = projectingHold(w) ? &w.pushes : nullptr;  // which begin with the row's own points
   forAll(Each::sum, n, [&](int k) {
     const int i = w.order[k];
     const ContactRow& row = rows[i];
@@ -239,9 +293,10 @@ void restrict(std::span<const ContactRow> rows, int free_count, std::span<const 
     w.row_area[k] = w.area_of[i];
     double own = 0;
     Vec3 moves{};  // of its points as they would move without contacts
-    for (int e = w.points.offsets[k]; e < w.points.offsets[k + 1]; ++e) {
+    for (int e = w.points.offsets[k], p = pushes ? pushes->offsets[k] : 0; e < w.points.offsets[k + 1]; ++e, ++p) {
       const int f = w.points.columns[e];
-      own += w.points.values[e] * w.points.values[e] * w.inverse_mass[f];
+      own +=
+          pushes ? w.points.values[e] * pushes->values[p] : w.points.values[e] * w.points.values[e] * w.inverse_mass[f];
       const double* lane = w.base[f].lane;
       moves += w.points.values[e] * Vec3{lane[0], lane[1], lane[2]};
     }

@@ -39,6 +39,19 @@ GAMBESON_WIDE void movePoints(ContactWork& w) {
   }
 }
 
+/// What the rows of an island do to its free points before something holds these, w.change.
+GAMBESON_WIDE void changePoints(const std::vector<Quad>& tractions, const ContactWork::Island& island, ContactWork& w) {
+  w.change.assign(w.free_points.size(), Vec3{});
+  for (int f = island.free_point; f < island.free_end; ++f) {
+    V4 sum{};
+    for (int e = w.columns.offsets[f]; e < w.columns.offsets[f + 1]; ++e) {
+      const int row = w.columns.columns[e];
+      sum += (w.row_area[row] * w.columns.values[e]) * quad(tractions[row]);
+    }
+    w.change[f] = w.inverse_mass[f] * Vec3{sum[0], sum[1], sum[2]};
+  }
+}
+
 /// Relative velocity of a row, and its bound.
 inline void relative(const ContactWork& w, int row, V4& v) {
   v = V4{};
@@ -89,6 +102,13 @@ void holdPoints(ContactWork& w) {
   w.hold->holdTouched(w.change);
   for (std::size_t f = 0; f < w.free_points.size(); ++f)
     w.moved[f] = quadOf(vec(w.base[f]) + w.change[f], w.moved[f].lane[3]);
+}
+
+void moveHeld(const std::vector<Quad>& tractions, const ContactWork::Island& island, ContactWork& w,
+              std::vector<Quad>& moved) {
+  changePoints(tractions, island, w);
+  w.hold->holdTouched(w.change);
+  for (int f = island.free_point; f < island.free_end; ++f) moved[f] = quadOf(vec(w.base[f]) + w.change[f]);
 }
 
 void iterateHeld(double goal, int last, ContactWork& w) {

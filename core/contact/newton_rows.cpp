@@ -14,7 +14,7 @@ using Island = ContactWork::Island;
 
 constexpr int kFactors = 80;                                          ///< of an island at most
 constexpr int kRounds = 60;                                           ///< proximal problems
-constexpr int kOfOne = 10;                                             ///< of one proximal problem
+constexpr int kOfOne = 10;                                            ///< of one proximal problem
 constexpr int kFew = 3;                                               ///< after which s may grow
 constexpr double kFirst = 5e3, kLeast = 10, kMost = 1e8, kGrows = 5;  ///< s
 constexpr double kInner = 0.1;  ///< what the equations of the points may leave, of the goal
@@ -219,7 +219,7 @@ void finish(double goal, Island& island, ContactWork& w) {
 void finishByNewton(double goal, ContactWork& w) {
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t i = 0; i < w.islands.size(); ++i)
-    if (!w.islands[i].done) finish(goal, w.islands[i], w);
+    if (!w.islands[i].done && !w.islands[i].held) finish(goal, w.islands[i], w);
 }
 
 }  // namespace gambeson

@@ -49,7 +49,7 @@ void choose(const Problem& p, ContactWork& w) {
                    [&](int a, int b) { return p.rows[a].stencil.sample[0] < p.rows[b].stencil.sample[0]; });
   reachRows(p.rows, p.WT, p.inverse_mass, p.velocity, w);
   restrict(p.rows, p.WT.column_count, p.inverse_mass, p.density, p.place, p.velocity, w);
-  if (w.hold) largestBounds(w);  // before velocities are set: it works in their arrays
+  if (w.hold && !w.hold->projects()) largestBounds(w);  // before velocities are set: it works in their arrays
 }
 
 /// Looks at the rows that are left out, at the velocities w.now: the largest residual among them; those that would be
@@ -113,6 +113,11 @@ void join(const Problem& p, ContactWork& w) {
     island.residual_m_per_s = slowest->residual_m_per_s;
     island.done = same && slowest->done;
   }
+  for (const ContactWork::Island& island : w.islands) {
+    if (!island.held) continue;
+    moveHeld(w.previous, island, w, w.moved_before);
+    moveHeld(w.candidate, island, w, w.moved);
+  }
 }
 
 bool anyJoins(const ContactWork& w) { return std::find(w.joins.begin(), w.joins.end(), 1) != w.joins.end(); }
@@ -122,7 +127,8 @@ bool anyJoins(const ContactWork& w) { return std::find(w.joins.begin(), w.joins.
 void begin(const Problem& p, std::span<const Vec3> warm, ContactWork& w) {
   const int n = static_cast<int>(p.rows.size());
   w.in.resize(n);
-  for (int i = 0; i < n; ++i) w.in[i] = w.area_of[i] > 0 && (w.hold || !(warm[i] == Vec3{}));
+  const bool ties_all = w.hold && !w.hold->projects();
+  for (int i = 0; i < n; ++i) w.in[i] = w.area_of[i] > 0 && (ties_all || !(warm[i] == Vec3{}));
   smoothWarm(p.rows, p.WT, p.inverse_mass, warm, w);
   w.impulses.resize(n);
   forAll(Each::sum, n, [&](int i) {
@@ -132,8 +138,9 @@ void begin(const Problem& p, std::span<const Vec3> warm, ContactWork& w) {
     w.impulses[i] = w.area_of[i] * w.start[i];
   });
   spreadImpulses(p.rows, p.WT, p.inverse_mass, w.impulses, w);
-  w.now.resize(p.velocity.size());
-  forAll(Each::value, static_cast<int>(w.now.size()), [&](int f) { w.now[f] = p.velocity[f] + w.change[f]; });
+  w.now = w.change;
+  if (w.hold && w.hold->projects()) w.hold->hold(w.now);
+  forAll(Each::value, static_cast<int>(w.now.size()), [&](int f) { w.now[f] = p.velocity[f] + w.now[f]; });
   leftOut(p, w);
   for (int i = 0; i < n; ++i) w.in[i] = w.in[i] || w.joins[i];
   choose(p, w);
@@ -214,13 +221,27 @@ bool followSlip(const Problem& p, double goal, ContactWork& w) {
   return any;
 }
 
+/// w.now, of the rows that are iterated on as they are. Points that a hold takes along may be no row's.
+void findVelocities(const Problem& p, ContactWork& w) {
+  if (!w.hold || !w.hold->projects()) {
+    for (std::size_t f = 0; f < w.free_points.size(); ++f) w.now[w.free_points[f]] = vec(w.moved[f]);
+    return;
+  }
+  std::fill(w.impulses.begin(), w.impulses.end(), Vec3{});
+  for (std::size_t k = 0; k < w.order.size(); ++k) w.impulses[w.order[k]] = w.row_area[k] * vec(w.candidate[k]);
+  spreadImpulses(p.rows, p.WT, p.inverse_mass, w.impulses, w);
+  w.hold->hold(w.change);
+  forAll(Each::value, static_cast<int>(w.now.size()), [&](int f) { w.now[f] = p.velocity[f] + w.change[f]; });
+}
+
 ContactSolve solve(const Problem& p, double goal, int max_iterations, ContactWork& w) {
   ContactSolve report;
+  const bool ties_all = w.hold && !w.hold->projects();
   int follows = 0;
   for (int check = std::min(kFirstCheck, max_iterations);; check = std::min(2 * check, max_iterations)) {
     iterate(goal, check, max_iterations, w);
-    if (p.parameters.newton && !w.hold && check >= kSweepsBeforeNewton) finishByNewton(goal, w);
-    for (std::size_t f = 0; f < w.free_points.size(); ++f) w.now[w.free_points[f]] = vec(w.moved[f]);
+    if (p.parameters.newton && !ties_all && check >= kSweepsBeforeNewton) finishByNewton(goal, w);
+    findVelocities(p, w);
     report.residual_m_per_s = leftOut(p, w);
     report.converged = report.residual_m_per_s <= goal;
     for (const ContactWork::Island& island : w.islands) {

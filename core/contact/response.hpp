@@ -157,6 +157,7 @@ struct ContactWork {
     int iterations = 0;
     double residual_m_per_s = 0;
     bool done = false;
+    bool held = false;  ///< has points that a ProjectingHold takes hold of; all such rows are one island
   };
   std::vector<Island> islands, kept_islands;
   std::vector<int> kept_island;  ///< of all rows; -1 for one that was not iterated on
@@ -177,6 +178,8 @@ struct ContactWork {
 
   std::vector<int> free_points, free_slot;
   SparseRows points, columns;  ///< rows x free points, B W_T; with a hold its transpose too
+  SparseRows pushes;           ///< with a ProjectingHold: what a row's impulse does to these points, nearly B W_T P
+  std::vector<int> push_at;    ///< place of each free point in a row of it, while that is made
   std::vector<double> row_area;
   std::vector<Vec3> traction;
   /// Sums of what rows have on samples, which go on to all free points.
@@ -206,7 +209,7 @@ struct ContactWork {
   std::vector<int> kept_points;                     ///< free points, while the rows change
   std::vector<Quad> kept_moved, kept_moved_before;  ///< of these
   std::vector<double> inverse_mass;
-  MotionHold* hold = nullptr;  ///< ties all rows to each other: there is one island
+  MotionHold* hold = nullptr;  ///< ties all rows to each other, or those of an island that is held
   std::vector<Vec3> change;    ///< of the free points that the rows touch, or of all, for `hold`
 };
 

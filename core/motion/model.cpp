@@ -120,6 +120,13 @@ SparseRows weftRows(const Model& m) {
   return rows;
 }
 
+/// The projection on the seams' rows, with the part of it that a sweep over contacts sees.
+void projectSeams(const SewnRows& sewn, Model& m) {
+  constexpr double kLeast = 1e-4;  // of a point's own mobility: what is less only the projection sees
+  m.sewing = SewnProjection(multiply(sewn.C, m.cloth->map().T), m.inverse_mass);
+  m.sewn_ties = m.sewing.ties(kLeast);
+}
+
 /// What projects on the seams.
 void addSewing(const ModelOptions& options, Model& m) {
   const SewnRows sewn = m.cloth->sewnRows();
@@ -137,7 +144,7 @@ void addSewing(const ModelOptions& options, Model& m) {
   m.sewing_options = options.sewing;
   m.sewn_pairs = multiply(sewn.pairs, T);
   m.sewn_cell_m = sewn.cell_m;
-  m.sewing = SewnProjection(multiply(sewn.C, T), m.inverse_mass);
+  projectSeams(sewn, m);
   for (int k = 0; k < sewn.rows(); ++k) {
     const int point = sewn.C.columns[sewn.C.offsets[k]];
     for (const ClothPatch& patch : m.cloth->patches())
@@ -223,7 +230,7 @@ void holdOnly(std::span<const int> control_points, Model& m) {
   m.held = std::move(held);
   m.held_points = std::move(points);
   m.held_motion = std::move(motion);
-  if (!m.sewing.empty()) m.sewing = SewnProjection(multiply(m.cloth->sewnRows().C, T), m.inverse_mass);
+  if (!m.sewing.empty()) projectSeams(m.cloth->sewnRows(), m);
   if (m.strain_limit.mode != LimitMode::none)
     m.strain_rows = m.cloth->strainRows(Mobility{m.inverse_mass, {}}, m.strain_limit.points);
 }

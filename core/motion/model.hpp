@@ -102,6 +102,7 @@ struct Model {
   StrainRows strain_rows;  ///< without points where strain is not limited
   SewnProjection sewing;   ///< of the free points; empty: no seams are projected
   SewingOptions sewing_options;
+  SparseRows sewn_ties;           ///< SewnProjection::ties, which contacts see
   std::vector<int> sewn_garment;  ///< of each row of `sewing`
   SparseRows sewn_pairs;          ///< SewnRows::pairs of the free points
   std::vector<double> sewn_cell_m;

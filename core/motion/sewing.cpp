@@ -126,6 +126,17 @@ void SewnHold::holdTouched(std::span<Vec3> change) const {
   for (const int k : sewn_) change[static_cast<std::size_t>(k)] = at(k);
 }
 
+PointTies SewnHold::ties(int i) const {
+  const std::vector<int>& points = model_.sewing.points();
+  const auto at = std::lower_bound(points.begin(), points.end(), i);
+  if (at == points.end() || *at != i) return {};
+  const auto k = static_cast<std::size_t>(at - points.begin());
+  if (!open_.empty() && open_[static_cast<std::size_t>(model_.sewing.rowOf(k))]) return {};
+  const SparseRows& H = model_.sewn_ties;
+  const auto begin = static_cast<std::size_t>(H.offsets[k]), count = static_cast<std::size_t>(H.offsets[k + 1]) - begin;
+  return {std::span(H.columns).subspan(begin, count), std::span(H.values).subspan(begin, count)};
+}
+
 bool contactsMeetSeams(const Model& m, std::span<const ContactRow> rows) {
   const SparseRows& WT = m.surface.WT;
   for (const ContactRow& row : rows)

@@ -54,6 +54,7 @@ class SewnHold : public ProjectingHold {
   void hold(std::span<Vec3> change) const override { model_.sewing.hold(change, open_, work_); }
   void touch(std::span<const int> points) override;
   void holdTouched(std::span<Vec3> change) const override;
+  PointTies ties(int free_point) const override;
 
  private:
   const Model& model_;

@@ -298,6 +298,72 @@ TEST(Sewing, HoldsUnderContact) {
   EXPECT_LT(gap, 0.01);
 }
 
+TEST(Sewing, AHeavyPanelMakesContactsOfALightOneNoSlower) {
+  // Where a contact touches the light side of a seam the heavy side is what it moves.
+  const CutSheet sheet = sewnSheet();
+  int most[2];
+  for (const int unlike : {0, 1}) {
+    Garment g = sheet.garment(sheetFabric());
+    Fabric light = sheetFabric();
+    light.density_kg_per_m3 *= unlike ? 0.01 : 1;
+    g.other_fabrics = {light};
+    g.fields.resize(2);
+    g.fields[1].material = PatchField{0, 1, 1, {1}};
+    Placement at;
+    at.origin = {0.5 * sheet.length, 0.5 * sheet.width, -0.062};
+    Motion m = startOf(g, {{0, 0, -9.81}, 0.1}, true, {1e-3, 0.3, 0.01, 1e-2, 4000},
+                       {{Ellipsoid{{0.06, 0.06, 0.06}}, "ball"}}, {at});
+    const double dt = 0.4 * stableStep(m);
+    int touching = 0;
+    most[unlike] = 0;
+    for (int k = 0; k * dt < 0.03; ++k) {
+      const StepReport r = m.step(dt);
+      ASSERT_EQ(r.failure, StepFailure::none) << r.why;
+      ASSERT_TRUE(r.contact.converged);
+      most[unlike] = std::max(most[unlike], r.contact.iterations);
+      touching += contactsMeetSeams(*m.model, m.work.rows);
+    }
+    std::printf("panels of %s masses: at most %d iterations, %d steps with contacts on the seam\n",
+                unlike ? "unlike" : "like", most[unlike], touching);
+    EXPECT_GT(touching, 20);
+  }
+  EXPECT_LT(most[0], 20);  // 25 and 189 where sweeps see their own side alone
+  EXPECT_LT(most[1], 100);
+}
+
+/// What contacts see of the seams is what the seams do.
+TEST(Sewing, TiesAreWhatTheProjectionTakes) {
+  const CutSheet sheet = sewnSheet();
+  const Garment g = sheet.garment(sheetFabric());
+  const Motion m = startOf(g, {{0, 0, -9.81}, 0.1}, true);
+  const Model& model = *m.model;
+  const SparseRows all = model.sewing.ties(0), near = model.sewing.ties(1e-2);
+  const std::vector<int>& points = model.sewing.points();
+  SewnProjection::Work work;
+  double worst = 0, left_out = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    std::vector<Vec3> change(static_cast<std::size_t>(model.freeCount()));
+    const double own = model.inverse_mass[points[k]];
+    if (own == 0) continue;
+    change[points[k]] = {0, 0, own};
+    model.sewing.hold(change, work);
+    change[points[k]].z -= own;
+    for (const SparseRows* H : {&all, &near}) {
+      std::vector<Vec3> off = change;
+      for (int e = H->offsets[k]; e < H->offsets[k + 1]; ++e) off[H->columns[e]].z += H->values[e];
+      double& largest = H == &all ? worst : left_out;
+      for (std::size_t i = 0; i < off.size(); ++i)
+        if (model.inverse_mass[i] > 0)
+          largest = std::max(largest, std::abs(off[i].z) / std::sqrt(own * model.inverse_mass[i]));
+    }
+  }
+  std::printf("ties: off by %.1e, near ones by %.1e; %zu of %zu\n", worst, left_out, near.values.size(),
+              all.values.size());
+  EXPECT_LT(worst, 1e-12);
+  EXPECT_LT(left_out, 1.001e-2);
+  EXPECT_LT(near.values.size(), 0.7 * all.values.size());
+}
+
 /// One panel is moved whole, and takes the other along by their seam alone: all that it gives is work of the supports.
 class PullsAPanel : public UniformStage {
  public:
