@@ -12,9 +12,12 @@
 /// its steps become shorter.
 ///
 /// Where something ties all points (MotionHold) a row cannot be taken alone: held_iteration.hpp. But if that is rows
-/// C v = 0 for velocities (seams), whose multipliers follow from all tractions at once, these are one more block of the
-/// same problem: a sweep over the contacts is followed by the projection of what it has changed, and both together are
-/// Gauss and Seidel's method by blocks.
+/// C v = 0 for velocities (seams), what a row's traction does to points near it along the seam is known beforehand
+/// (ProjectingHold::ties), and a sweep counts it: the row's own entry and its pushes are those of P = M^-1 - H, less
+/// entries that hardly count, and every few sweeps, and wherever the residual is looked at, the velocities are those of
+/// P exactly. A sweep that saw M^-1 alone, with the projection after it, would be Gauss and Seidel's method by blocks,
+/// and slow where a light side of a seam is touched: the projection takes back all but the light side's share of what a
+/// row has pushed.
 
 #include "core/contact/response.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A hold of contact solves that sweeps over the rows can alternate with.
+/// A hold of contact solves that sweeps over the rows can see.
 
 #include "core/contact/response.hpp"
 

@@ -113,7 +113,7 @@ class MotionHold {
   virtual ~MotionHold() = default;
   /// Whether it bears tensions far beyond the impulses that stop cloth (solveContacts).
   virtual bool bearsTension() const { return true; }
-  /// Whether it is a ProjectingHold, with which sweeps over the rows alternate.
+  /// Whether it is a ProjectingHold, which sweeps over the rows see.
   virtual bool projects() const { return false; }
   /// `change`: of all free points, M^-1 i in, P i out.
   virtual void hold(std::span<Vec3> change) const = 0;
@@ -261,8 +261,8 @@ void layerUnder(double last_Pa, double dt_s, double density_kg_per_m2, const Con
 /// Samples that only held points carry get no impulse, and do not count in the residual: nothing can move them.
 ///
 /// `hold`, where there is one, stands in the place of M^-1: what it holds is part of the same problem, whose rows can
-/// no longer be taken one by one; all take a step along the gradient at once there, but for a ProjectingHold, with
-/// which sweeps alternate. Impulses may then be thousands of times what stops the cloth by itself (a ring that takes no
+/// no longer be taken one by one; all take a step along the gradient at once there, but for a ProjectingHold,
+/// which sweeps see. Impulses may then be thousands of times what stops the cloth by itself (a ring that takes no
 /// stretch, on a body); a solve is done at 2e-4 of the largest where that is more than the tolerance. Without such a
 /// hold at 1e-6, and ten tolerances at most.
 ///

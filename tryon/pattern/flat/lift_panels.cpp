@@ -1,7 +1,9 @@
 #include "tryon/pattern/flat/lift_panels.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -19,6 +21,7 @@ constexpr double kSpacing_m = 0.01;  ///< of points on a line that are looked at
 constexpr double kFar_m = 0.1;       ///< and at most, where the body is far
 constexpr double kSeam_m = 0.02;     ///< of seam that each line stands for
 constexpr double kMuch_m = 0.02;     ///< of seam
+constexpr double kCorners = 0.2;     ///< of what passes through as placed: corners under the arms, which slide off
 
 /// Whether the line from a to b, its ends too, passes through the body.
 bool passes(const BodyDepth& body, const Vec3& a, const Vec3& b) {
@@ -46,6 +49,24 @@ std::vector<SeamPair> someOf(const std::vector<SeamPair>& pairs) {
   return out;
 }
 
+/// By how much panels are moved in height so that their seams come together in it: the least sum over the seams of
+/// length (z_a + d_a - z_b - d_b)^2, the mean of d 0.
+std::vector<double> levelled(std::size_t panels, const std::vector<SeamPair>& pairs,
+                             const std::function<double(int, Vec2)>& height) {
+  const auto n = static_cast<Eigen::Index>(panels);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Constant(n, n, 1e-6);  // the mean; of parts that no seam ties each by itself
+  A.diagonal().array() += 1e-9;
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
+  for (const SeamPair& p : pairs) {
+    const double off = p.length_m * (height(p.b, p.xb) - height(p.a, p.xa));
+    A(p.a, p.a) += p.length_m, A(p.b, p.b) += p.length_m;
+    A(p.a, p.b) -= p.length_m, A(p.b, p.a) -= p.length_m;
+    b(p.a) += off, b(p.b) -= off;
+  }
+  const Eigen::VectorXd d = A.ldlt().solve(b);
+  return {d.begin(), d.end()};
+}
+
 }  // namespace
 
 PanelLift liftOverBody(const FlatPattern& pattern, const Vec3& position, const StandingBody& form) {
@@ -55,24 +76,30 @@ PanelLift liftOverBody(const FlatPattern& pattern, const Vec3& position, const S
     const PanelPlace& place = *pattern.panels[static_cast<std::size_t>(panel)].placement;
     return position + place.origin_m + x.x * place.along_x + x.y * place.along_y;
   };
+  std::vector<double> own(pattern.panels.size(), 0.0);
   const auto through = [&](double lift) {
     std::vector<double> length(pairs.size());
     forAllUneven(Each::much, static_cast<int>(pairs.size()), [&](int k) {
       const SeamPair& p = pairs[static_cast<std::size_t>(k)];
-      const Vec3 up{0, 0, lift};
-      length[static_cast<std::size_t>(k)] = passes(body, at(p.a, p.xa) + up, at(p.b, p.xb) + up) ? p.length_m : 0;
+      const auto lifted = [&](int panel, Vec2 x) {
+        return at(panel, x) + Vec3{0, 0, lift + own[static_cast<std::size_t>(panel)]};
+      };
+      length[static_cast<std::size_t>(k)] = passes(body, lifted(p.a, p.xa), lifted(p.b, p.xb)) ? p.length_m : 0;
     });
     return std::accumulate(length.begin(), length.end(), 0.0);
   };
   PanelLift out;
   out.through_m = out.left_m = through(0);
   if (out.through_m <= kMuch_m) return out;
-  std::vector<double> left{out.through_m};
-  for (int k = 1; k < kLifts; ++k) left.push_back(through(k * kLift_m));
+  own = levelled(own.size(), pairs, [&](int panel, Vec2 x) { return at(panel, x).z; });
+  std::vector<double> left;
+  for (int k = 0; k < kLifts; ++k) left.push_back(through(k * kLift_m));
   const double least = *std::min_element(left.begin(), left.end());
   const auto first = std::find_if(left.begin(), left.end(), [&](double l) { return l <= least + kMuch_m; });
-  out.lift_m = kLift_m * static_cast<double>(first - left.begin());
-  out.left_m = *first;
+  const auto end = std::find_if(first, left.end(), [&](double l) { return l > least + kCorners * out.through_m; });
+  const auto chosen = first + std::max<std::ptrdiff_t>(end - 1 - first, 0) / 2;
+  out.left_m = *chosen;
+  for (const double d : own) out.panel_m.push_back(d + kLift_m * static_cast<double>(chosen - left.begin()));
   return out;
 }
 

@@ -129,13 +129,14 @@ void sayDepths(const FlatPattern& pattern, const std::string& name, const Garmen
 /// Lifts panels that stand where the pattern says, so that their seams close over shoulders and arms.
 void liftPanels(const std::string& name, const GarmentMaking& m, const StandingBody& body, FlatPattern& pattern) {
   const PanelLift lift = liftOverBody(pattern, m.worn.position_m, body);
-  if (lift.lift_m == 0) return;
-  for (Panel& panel : pattern.panels) panel.placement->origin_m.z += lift.lift_m;
+  if (lift.panel_m.empty()) return;
+  for (std::size_t k = 0; k < pattern.panels.size(); ++k) pattern.panels[k].placement->origin_m.z += lift.panel_m[k];
+  const auto [least, most] = std::minmax_element(lift.panel_m.begin(), lift.panel_m.end());
   if (m.fit)
-    m.fit->push_back(fmt::format(
-        "the panels of the garment \"{}\" start {:.0f} cm higher than placed: there {:.0f} cm of seam would "
-        "have closed through the body, here {:.0f} cm",
-        name, 100 * lift.lift_m, 100 * lift.through_m, 100 * lift.left_m));
+    m.fit->push_back(
+        fmt::format("the panels of the garment \"{}\" start {:.0f} to {:.0f} cm higher than placed: there {:.0f} cm of "
+                    "seam would have closed through the body, here {:.0f} cm",
+                    name, 100 * *least, 100 * *most, 100 * lift.through_m, 100 * lift.left_m));
 }
 
 Garment makePanels(const GarmentMaking& m) {
