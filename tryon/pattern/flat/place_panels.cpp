@@ -6,10 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/contact/proximity.hpp"
 #include "core/error.hpp"
 #include "human/body/girths.hpp"
 #include "tryon/pattern/arm_form.hpp"
-#include "tryon/pattern/flat/body_depth.hpp"
 #include "tryon/pattern/flat/body_tube.hpp"
 #include "tryon/pattern/flat/panel_geometry.hpp"
 #include "tryon/pattern/wrap.hpp"
@@ -56,6 +56,39 @@ std::vector<Vec2> samplesOf(const Panel& panel) {
     }
   return out;
 }
+
+/// Distances from the body as it stands.
+class Body {
+ public:
+  explicit Body(const StandingBody& form) : form_(form), query_(form.shapes()) {
+    for (std::size_t o = 0; o < form.shapes().size(); ++o) {
+      const Shape& shape = form.shapes()[o].shape;
+      double reach = 0;
+      if (const auto* e = std::get_if<Ellipsoid>(&shape))
+        reach = std::max({e->semi_axes.x, e->semi_axes.y, e->semi_axes.z});
+      else
+        for (const Vec3& v : std::get<TriangleMesh>(shape).vertices) reach = std::max(reach, norm(v));
+      reach_m_.push_back(form.placements()[o].scale * reach);
+    }
+  }
+  /// Of shapes that are nearer than kNear_m.
+  PanelDepth depth(const Vec3& x) const {
+    PanelDepth deepest;
+    for (std::size_t o = 0; o < form_.shapes().size(); ++o) {
+      const Placement& at = form_.placements()[o];
+      if (norm(x - at.origin) > reach_m_[o] + kNear_m) continue;
+      if (const double d = -query_.signedDistance(static_cast<int>(o), at, x); d > deepest.depth_m)
+        deepest = {d, form_.shapes()[o].segment};
+    }
+    return deepest;
+  }
+
+ private:
+  static constexpr double kNear_m = 0.01;
+  const StandingBody& form_;
+  ProximityQuery query_;
+  std::vector<double> reach_m_;  ///< of each shape from its origin
+};
 
 /// Panels that cover one face of trunk and legs, in the parts that hang together.
 struct Half {
@@ -116,7 +149,7 @@ class Placing {
     stuck = -1, depth = {};
     for (std::size_t k = 0; k < out.bent.size(); ++k)
       for (const Vec2 x : samplesOf(pattern_.panels[k]))
-        if (const PanelDepth d = body_.at(out.bent[k](x)); d.depth_m > std::max(depth.depth_m, -kBody_m))
+        if (const PanelDepth d = body_.depth(out.bent[k](x)); d.depth_m > std::max(depth.depth_m, -kBody_m))
           depth = d, stuck = static_cast<int>(k);
     for (const auto& [half, list] : {std::pair(&front_, &out.front), {&back_, &out.back}})
       for (const LaidPart& part : half->parts) list->insert(list->end(), part.begin(), part.end());
@@ -477,7 +510,7 @@ class Placing {
       for (const LaidPanel& p : all)
         for (const Vec2 x : samplesOf(pattern_.panels[static_cast<std::size_t>(p.panel)])) {
           const Vec3 at = world(p.of(x));
-          free = free && body_.at(at).depth_m < -kBody_m &&
+          free = free && body_.depth(at).depth_m < -kBody_m &&
                  std::none_of(others.begin(), others.end(), [&](const Vec3& o) { return norm(o - at) < kFree_m; });
           if (!free) break;
         }
@@ -491,7 +524,7 @@ class Placing {
   const FlatPattern& pattern_;
   const StandingBody& form_;
   std::vector<SeamPair> pairs_;
-  BodyDepth body_;
+  Body body_;
   StandingBody::Links arms_[2], trunk_;
   int pelvis_ = -1, torso_ = -1, head_ = -1;
   std::vector<std::optional<PanelRegion>> regions_;
@@ -512,10 +545,10 @@ bool coversArms(const FlatPattern& pattern) {
 }
 
 PanelDepth depthInBody(const Panel& panel, const std::function<Vec3(Vec2)>& at, const StandingBody& form) {
-  const BodyDepth body(form);
+  const Body body(form);
   PanelDepth deepest;
   for (const Vec2 x : samplesOf(panel))
-    if (const PanelDepth d = body.at(at(x)); d.depth_m > deepest.depth_m) deepest = d;
+    if (const PanelDepth d = body.depth(at(x)); d.depth_m > deepest.depth_m) deepest = d;
   return deepest;
 }
 

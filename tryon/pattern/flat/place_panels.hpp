@@ -16,10 +16,10 @@
 #include <string>
 #include <vector>
 
-#include "tryon/pattern/flat/body_depth.hpp"
 #include "tryon/pattern/flat/lay_panels.hpp"
 #include "tryon/pattern/flat/panel.hpp"
 #include "tryon/pattern/flat/regions.hpp"
+#include "tryon/pattern/flat/standing_body.hpp"
 
 namespace gambeson {
 
@@ -41,7 +41,12 @@ bool coversArms(const FlatPattern& pattern);
 /// through the body (which part, by how much); "human" where the body lacks links.
 PlacedPanels placePanels(const FlatPattern& pattern, const StandingBody& form);
 
-/// A point of a panel that lies deepest in the body, of samples 2 cm apart.
+/// A point of a panel that lies deepest in the body, of samples 2 cm apart; depth_m < 0 outside, very low where no part
+/// of the body is near.
+struct PanelDepth {
+  double depth_m = -1e300;
+  std::string segment;
+};
 PanelDepth depthInBody(const Panel& panel, const std::function<Vec3(Vec2)>& at, const StandingBody& form);
 
 }  // namespace gambeson

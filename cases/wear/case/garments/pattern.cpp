@@ -11,7 +11,6 @@
 #include "cases/pattern/seam_edits.hpp"
 #include "cases/wear/case/garments/kind.hpp"
 #include "core/error.hpp"
-#include "tryon/pattern/flat/lift_panels.hpp"
 #include "tryon/pattern/flat/panel_fit.hpp"
 #include "tryon/pattern/flat/panel_garment.hpp"
 #include "tryon/pattern/flat/place_panels.hpp"
@@ -126,19 +125,6 @@ void sayDepths(const FlatPattern& pattern, const std::string& name, const Garmen
   }
 }
 
-/// Lifts panels that stand where the pattern says, so that their seams close over shoulders and arms.
-void liftPanels(const std::string& name, const GarmentMaking& m, const StandingBody& body, FlatPattern& pattern) {
-  const PanelLift lift = liftOverBody(pattern, m.worn.position_m, body);
-  if (lift.panel_m.empty()) return;
-  for (std::size_t k = 0; k < pattern.panels.size(); ++k) pattern.panels[k].placement->origin_m.z += lift.panel_m[k];
-  const auto [least, most] = std::minmax_element(lift.panel_m.begin(), lift.panel_m.end());
-  if (m.fit)
-    m.fit->push_back(
-        fmt::format("the panels of the garment \"{}\" start {:.0f} to {:.0f} cm higher than placed: there {:.0f} cm of "
-                    "seam would have closed through the body, here {:.0f} cm",
-                    name, 100 * *least, 100 * *most, 100 * lift.through_m, 100 * lift.left_m));
-}
-
 Garment makePanels(const GarmentMaking& m) {
   EditedPattern edited = patternOf(m.worn);
   FlatPattern& pattern = edited.pattern;
@@ -148,19 +134,17 @@ Garment makePanels(const GarmentMaking& m) {
       throw InputError({"", 0, "panels"},
                        "stand around a human by their regions, and the case has none; allowed: a placement for each");
     std::optional<StandingBody> body;
-    if (m.human) body.emplace(*m.human, m.posture);
-    const std::string name = m.worn.name.empty() ? pattern.name : m.worn.name;
+    if (m.human && (regions || m.fit)) body.emplace(*m.human, m.posture);
     std::optional<PlacedPanels> placed;
     if (regions) {
       placed = placePanels(pattern, *body);
       for (std::size_t k = 0; k < pattern.panels.size(); ++k) pattern.panels[k].placement = placed->flat[k];
-    } else if (body) {
-      liftPanels(name, m, *body, pattern);
     }
     std::vector<int> panel_of;
     Garment garment = panelGarment(pattern, {of(m.worn).cell_m, of(m.worn).degree}, &panel_of);
     if (placed) garment.placed = bentPoints(garment, panel_of, *placed);
     if (!m.fit || !body) return garment;
+    const std::string name = m.worn.name.empty() ? pattern.name : m.worn.name;
     std::vector<LaidPanel> front, back;
     if (placed) {
       front = placed->front, back = placed->back;
