@@ -57,9 +57,27 @@ class Winding {
   std::vector<std::vector<int>> slabs_;
 };
 
-}  // namespace
+/// Unit vectors out of the surface at its vertices, by the areas of the triangles around them; 0 where these cancel.
+std::vector<Vec3> outwardAt(const std::vector<std::array<int, 3>>& triangles, std::span<const Vec3> x) {
+  std::vector<Vec3> normal(x.size());
+  for (const auto& t : triangles)
+    for (const int v : t) normal[v] += cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
+  for (Vec3& n : normal)
+    if (const double size = norm(n); size > 0) n = n / size;
+  return normal;
+}
 
-Overlap overlapOf(const std::vector<std::array<int, 3>>& triangles, std::span<const Vec3> x) {
+double areaOf(const std::vector<char>& which, const std::vector<std::array<int, 3>>& triangles,
+              std::span<const Vec3> x) {
+  double area = 0;
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    const auto [a, b, c] = triangles[k];
+    if (which[k]) area += 0.5 * norm(cross(x[b] - x[a], x[c] - x[a]));
+  }
+  return area;
+}
+
+Overlap overlapAsItIs(const std::vector<std::array<int, 3>>& triangles, std::span<const Vec3> x) {
   Overlap out;
   out.triangles.assign(triangles.size(), 0);
   const ContactMesh mesh = contactMesh(static_cast<int>(x.size()), triangles);
@@ -67,12 +85,9 @@ Overlap overlapOf(const std::vector<std::array<int, 3>>& triangles, std::span<co
   if (crossings.empty()) return out;
 
   std::vector<std::vector<int>> neighbours(x.size());
-  std::vector<Vec3> normal(x.size());
   for (const auto& t : triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
-      neighbours[t[k]].push_back(t[(k + 1) % 3]);
-      normal[t[k]] += cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
-    }
+    for (std::size_t k = 0; k < 3; ++k) neighbours[t[k]].push_back(t[(k + 1) % 3]);
+  const std::vector<Vec3> normal = outwardAt(triangles, x);
   // Hidden vertices hang together with those of edges that pass through a triangle.
   const Winding winding(triangles, x);
   std::vector<char> seen(x.size(), 0), hidden(x.size(), 0);
@@ -87,29 +102,45 @@ Overlap overlapOf(const std::vector<std::array<int, 3>>& triangles, std::span<co
   while (!ask.empty()) {
     const int v = ask.back();
     ask.pop_back();
-    const double size = norm(normal[v]);
-    if (!(size > 0) || winding(x[v] + (kOff_m / size) * normal[v]) <= 0) continue;
+    if (normal[v] == Vec3{} || winding(x[v] + kOff_m * normal[v]) <= 0) continue;
     hidden[v] = 1;
     for (const int w : neighbours[v]) push(w);
   }
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     const auto [a, b, c] = triangles[t];
     if (hidden[a] && hidden[b] && hidden[c]) out.triangles[t] = 1;
-    if (out.triangles[t]) out.area_m2 += 0.5 * norm(cross(x[b] - x[a], x[c] - x[a]));
   }
+  out.area_m2 = areaOf(out.triangles, triangles, x);
   return out;
 }
 
-OverlapOfMotion overlapOf(const Human& human, const Motion& motion, double step_s) {
+}  // namespace
+
+Overlap overlapOf(const std::vector<std::array<int, 3>>& triangles, std::span<const Vec3> x, double room_m) {
+  if (!(room_m > 0)) return overlapAsItIs(triangles, x);
+  std::vector<Vec3> grown(x.begin(), x.end());
+  const std::vector<Vec3> out = outwardAt(triangles, x);
+  for (std::size_t v = 0; v < grown.size(); ++v) grown[v] += 0.5 * room_m * out[v];
+  Overlap o = overlapAsItIs(triangles, grown);
+  o.area_m2 = areaOf(o.triangles, triangles, x);
+  return o;
+}
+
+OverlapOfMotion overlapOf(const Human& human, const Motion& motion, double step_s, double room_m) {
   const Skin& skin = *human.skin;
   OverlapOfMotion out;
   out.triangles.assign(skin.rest.triangles.size(), 0);
+  out.tight = out.triangles;
   std::vector<Vec3> x(skin.rest.vertices.size());
   out.instants = std::max(1, static_cast<int>(std::ceil(motion.duration() / step_s))) + 1;
   for (int i = 0; i < out.instants; ++i) {
     const double t = motion.duration() * i / (out.instants - 1);
     const Posture p = motion.at(t);
     skinPositions(skin, linkPoses(human.skeleton, p.q, p.root), x);
+    if (room_m > 0) {
+      const Overlap tight = overlapOf(skin.rest.triangles, x, room_m);
+      for (std::size_t k = 0; k < tight.triangles.size(); ++k) out.tight[k] |= tight.triangles[k];
+    }
     const Overlap now = overlapOf(skin.rest.triangles, x);
     if (!(now.area_m2 > 0)) continue;
     ++out.folded;
@@ -119,10 +150,11 @@ OverlapOfMotion overlapOf(const Human& human, const Motion& motion, double step_
   std::set<int> parts;
   for (std::size_t k = 0; k < out.triangles.size(); ++k) {
     const auto [a, b, c] = skin.rest.triangles[k];
-    const auto& r = skin.rest.vertices;
     if (out.triangles[k]) parts.insert({skin.segment[a], skin.segment[b], skin.segment[c]});
-    if (out.triangles[k]) out.area_m2 += 0.5 * norm(cross(r[b] - r[a], r[c] - r[a]));
+    if (out.triangles[k]) out.tight[k] = 1;
   }
+  out.area_m2 = areaOf(out.triangles, skin.rest.triangles, skin.rest.vertices);
+  out.tight_m2 = areaOf(out.tight, skin.rest.triangles, skin.rest.vertices);
   for (const int l : parts) out.links.push_back(human.skeleton.links[l].name);
   return out;
 }

@@ -16,16 +16,20 @@ struct Overlap {
   std::vector<char> triangles;
   double area_m2 = 0;  ///< of these
 };
-Overlap overlapOf(const std::vector<std::array<int, 3>>& triangles, std::span<const Vec3> x);
+/// `room_m`: of the surface as it would be half of that farther out, so that what faces itself nearer than that counts
+/// too: cloth that needs this room has none there.
+Overlap overlapOf(const std::vector<std::array<int, 3>>& triangles, std::span<const Vec3> x, double room_m = 0);
 
 /// The same over a motion, from its begin to its end.
 struct OverlapOfMotion {
   std::vector<char> triangles;  ///< at any of the instants
   double area_m2 = 0;           ///< of all these, in the skin's bind posture
+  std::vector<char> tight;      ///< where a room is asked for: those that lack it at any of the instants
+  double tight_m2 = 0;          ///< of all these, likewise
   int instants = 0, folded = 0;
   double largest_m2 = 0, largest_time_s = 0;
   std::vector<std::string> links;  ///< whose parts of the skin take part
 };
-OverlapOfMotion overlapOf(const Human& human, const Motion& motion, double step_s);
+OverlapOfMotion overlapOf(const Human& human, const Motion& motion, double step_s, double room_m = 0);
 
 }  // namespace gambeson

@@ -47,8 +47,8 @@ Object characterTable() {
       .number("height", &C::height_m, "m", between(0.5, 3), "it is scaled to, in the pose of the file")
       .defaultsTo("as the file has it")
       .flag("switch_off_folds", &C::folds_off,
-            "where the skin folds into itself at some time of the motion, cloth does not touch it at all; the area is "
-            "told either way")
+            "where the skin folds into itself at some time of the motion, or comes nearer to itself than 3 mm, cloth "
+            "does not touch it at all; the area is told either way")
       .number("mass", &C::mass_kg, "kg", aboveTo(0, 500), "of the whole body")
       .defaultsTo("its volume at 1000 kg/m^3")
       .build();

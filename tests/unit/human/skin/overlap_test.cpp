@@ -66,5 +66,20 @@ TEST(SkinOverlap, IsNoneWhereNothingPassesThrough) {
   EXPECT_TRUE(std::none_of(o.triangles.begin(), o.triangles.end(), [](char c) { return c; }));
 }
 
+/// Two blocks 1 mm apart, the second one larger: cloth that needs 3 mm has no room between them, cloth that needs 0.8
+/// mm has. What faces the other block counts, 1 m^2 of each, and triangles on the border of that count whole.
+TEST(SkinOverlap, IsWhatLeavesNoRoom) {
+  const auto tight = [](int n, double room_m) {
+    TriangleMesh m;
+    addBox(m, {0, 0, 0}, {1, 1, 1}, n);
+    addBox(m, {1.001, -0.31, -0.23}, {2, 1.19, 1.27}, n);
+    return overlapOf(m.triangles, m.vertices, room_m).area_m2;
+  };
+  EXPECT_EQ(tight(6, 0), 0);
+  EXPECT_EQ(tight(6, 0.8e-3), 0);
+  EXPECT_GE(tight(6, 3e-3), 2 - 1e-9);
+  EXPECT_LT(tight(24, 3e-3), 2.6);
+}
+
 }  // namespace
 }  // namespace gambeson
