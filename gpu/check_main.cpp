@@ -176,7 +176,7 @@ void writeManifest(const fs::path& file, const std::string& device, const Found&
   const std::vector<ContactProblem> problems = manifestProblems();
   for (std::size_t i = 0; i < problems.size(); ++i) {
     const auto on = device == "reference" ? sweepsOnReference() : sweepsOnCuda();
-    const SolveFacts facts = factsOf(solved(problems[i], kManifestIterations, on.get()));
+    const SweepFacts facts = factsOf(solved(problems[i], kManifestIterations, on.get()));
     out << fmt::format(
         "    {{\"name\": \"{}\", \"rows\": {}, \"islands\": {}, \"iterations\": {}, \"hash\": \"{:016x}\"}}{}\n",
         problems[i].name, facts.rows, facts.islands, facts.iterations, facts.hash, i + 1 < problems.size() ? "," : "");

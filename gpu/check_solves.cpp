@@ -41,7 +41,7 @@ std::vector<ContactProblem> problemsOf(const SolveSettings& settings) {
 
 int checkProblem(const ContactProblem& problem, const SolveSettings& settings) {
   const ContactWork truth = solved(problem, kMost, nullptr);
-  const SolveFacts facts = factsOf(truth);
+  const SweepFacts facts = factsOf(truth);
   const int largest = largestIsland(truth);
   fmt::print("{}: {} rows in {} islands, the largest {}; {} sweeps, {:016x}\n", problem.name, facts.rows, facts.islands,
              largest, facts.iterations, facts.hash);

@@ -1,6 +1,9 @@
 #include "analysis/render/gl.hpp"
 
+#include <dlfcn.h>
 #include <malloc.h>
+
+#include <type_traits>
 
 #include "core/error.hpp"
 
@@ -15,9 +18,38 @@ void keepMemory() {
   mallopt(M_TRIM_THRESHOLD, most_kept);
 }
 
+/// What is called of OSMesa. It brings a compiler that takes some 50 ms of the processor to load, several times what a
+/// command needs that draws nothing: it is loaded for the first picture, and stays.
+struct Mesa {
+  decltype(&OSMesaCreateContextAttribs) create;
+  decltype(&OSMesaMakeCurrent) makeCurrent;
+  decltype(&OSMesaDestroyContext) destroy;
+  decltype(&OSMesaGetProcAddress) address;
+};
+
+const Mesa& mesa() {
+  static const Mesa loaded = [] {
+    const char* const name = "libOSMesa.so.8";
+    void* const handle = dlopen(name, RTLD_NOW | RTLD_LOCAL);
+    if (!handle) throw RunError(std::string("cannot draw: ") + dlerror() + " (Debian package libosmesa6)");
+    const auto of = [&](auto& function, const char* symbol) {
+      function = reinterpret_cast<std::remove_reference_t<decltype(function)>>(dlsym(handle, symbol));
+      if (!function) throw RunError(std::string("cannot draw: ") + name + " lacks " + symbol);
+    };
+    Mesa out{};
+    of(out.create, "OSMesaCreateContextAttribs");
+    of(out.makeCurrent, "OSMesaMakeCurrent");
+    of(out.destroy, "OSMesaDestroyContext");
+    of(out.address, "OSMesaGetProcAddress");
+    return out;
+  }();
+  return loaded;
+}
+
 }  // namespace
 
 Gl::Gl() : small_(4 * 16 * 16) {
+  const Mesa& osmesa = mesa();
   keepMemory();
   const int attributes[] = {OSMESA_FORMAT,
                             OSMESA_RGBA,
@@ -30,27 +62,27 @@ Gl::Gl() : small_(4 * 16 * 16) {
                             OSMESA_CONTEXT_MINOR_VERSION,
                             3,
                             0};
-  context_ = OSMesaCreateContextAttribs(attributes, nullptr);
+  context_ = osmesa.create(attributes, nullptr);
   if (!context_) throw RunError("cannot draw: OSMesa gives no OpenGL 3.3 core profile (Debian package libosmesa6)");
-  if (!OSMesaMakeCurrent(context_, small_.data(), GL_UNSIGNED_BYTE, 16, 16)) {
-    OSMesaDestroyContext(context_);
+  if (!osmesa.makeCurrent(context_, small_.data(), GL_UNSIGNED_BYTE, 16, 16)) {
+    osmesa.destroy(context_);
     throw RunError("cannot draw: OSMesa does not make its context current");
   }
   std::string missing;
-#define GAMBESON_GL_LOAD(type, name)                                            \
-  name = reinterpret_cast<PFNGL##type##PROC>(OSMesaGetProcAddress("gl" #name)); \
+#define GAMBESON_GL_LOAD(type, name)                                      \
+  name = reinterpret_cast<PFNGL##type##PROC>(osmesa.address("gl" #name)); \
   if (!name) missing += " gl" #name;
   GAMBESON_GL(GAMBESON_GL_LOAD)
 #undef GAMBESON_GL_LOAD
   if (!missing.empty()) {
-    OSMesaDestroyContext(context_);
+    osmesa.destroy(context_);
     throw RunError("cannot draw: OSMesa lacks" + missing);
   }
 }
 
 Gl::~Gl() {
-  OSMesaMakeCurrent(nullptr, nullptr, 0, 0, 0);
-  OSMesaDestroyContext(context_);
+  mesa().makeCurrent(nullptr, nullptr, 0, 0, 0);
+  mesa().destroy(context_);
 }
 
 void Gl::check(const char* what) const {

@@ -29,7 +29,7 @@ constexpr double kCoarse = 20;
 
 /// What those tips are off by, from kCoarse on.
 inline const char* coarseError(double coarseness) {
-  return coarseness < 35 ? "some 4 %" : coarseness < 60 ? "some 5 %" : coarseness < 120 ? "some 10 %" : "10 to 25 %";
+  return coarseness < 35 ? "some 4 %" : coarseness < 60 ? "some 5 %" : "10 to 25 %";
 }
 
 /// A run takes 1/cell to this as long: cells by the square, steps in proportion. Measured on trousers of 50, 40 and 30

@@ -5,8 +5,8 @@
 
 namespace gambeson::gpu {
 
-SolveFacts factsOf(const ContactWork& w) {
-  SolveFacts facts{static_cast<int>(w.order.size()), static_cast<int>(w.islands.size()), 0, 0};
+SweepFacts factsOf(const ContactWork& w) {
+  SweepFacts facts{static_cast<int>(w.order.size()), static_cast<int>(w.islands.size()), 0, 0};
   const auto take = [&](double x) { facts.hash = mixed(facts.hash ^ std::bit_cast<std::uint64_t>(x)); };
   for (const auto* quads : {&w.candidate, &w.previous, &w.moved, &w.moved_before})
     for (const ContactWork::Quad& quad : *quads)

@@ -10,13 +10,13 @@
 
 namespace gambeson::gpu {
 
-struct SolveFacts {
+struct SweepFacts {
   int rows = 0, islands = 0;
   int iterations = 0;      ///< of the island that takes most
   std::uint64_t hash = 0;  ///< of tractions, velocities and the islands' states, in their order
-  bool operator==(const SolveFacts&) const = default;
+  bool operator==(const SweepFacts&) const = default;
 };
-SolveFacts factsOf(const ContactWork& work);
+SweepFacts factsOf(const ContactWork& work);
 
 /// Iterates from the problem's start to its goal, at most `most` times, on a device or (null) by core.
 ContactWork solved(const ContactProblem& problem, int most, ContactSweeps* device);

@@ -22,6 +22,7 @@
 #include "human/motion/smooth_step.hpp"
 #include "human/motion/standing.hpp"
 #include "human/motion/walk_curves.hpp"
+#include "human/skeleton/within.hpp"
 
 namespace gambeson {
 namespace {
@@ -62,9 +63,13 @@ class Aim final : public Motion {
     const nlohmann::json &start = data.at("start_low_ready"), &end = data.at("end_aim_at_ground_lean_left");
     const auto drive = [&](const std::string& joint, const char* key, double sign, bool needed) {
       const int j = human_.skeleton.joint(joint);
+      // Arms, trunk and neck go as near to the data as they may.
+      const auto of = [&](const nlohmann::json& posture) {
+        const double value = sign * rad_per_deg * posture.at(key).get<double>();
+        return needed ? value : within(human_.skeleton.joints[j], value);
+      };
       if (j >= 0)
-        drives_.push_back(
-            {j, sign * rad_per_deg * start.at(key).get<double>(), sign * rad_per_deg * end.at(key).get<double>()});
+        drives_.push_back({j, of(start), of(end)});
       else if (needed)
         throw InputError({"", 0, "human"}, "taking aim needs the joint '" + joint + "'");
     };

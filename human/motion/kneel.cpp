@@ -3,7 +3,8 @@
 /// its instep; the left foot steps forward, level. At the end the right hip's flexion and abduction and both ankles are
 /// those of the data and the right knee lies on the ground: that says how far pelvis, left foot and right heel go, by
 /// Newton's method. The knees and the left hip come out. Feet point ahead: the data's rotations of the hips, 5 degrees
-/// outward at both ends, are left out. He gets up the same way back.
+/// outward at both ends, are left out. Arms that may not go where the data have them go as near as they may. He gets up
+/// the same way back.
 
 #include "human/motion/kneel.hpp"
 
@@ -25,6 +26,7 @@
 #include "human/motion/smooth_step.hpp"
 #include "human/motion/standing.hpp"
 #include "human/motion/walk_curves.hpp"
+#include "human/skeleton/within.hpp"
 
 namespace gambeson {
 namespace {
@@ -48,8 +50,10 @@ class Kneel final : public Motion {
     const nlohmann::json &start = data.at("start_low_ready"), &end = data.at("end_high_kneel");
     const auto drive = [&](const std::string& joint, const std::string& key) {
       const int j = human_.skeleton.joint(joint);
-      if (j >= 0)
-        drives_.push_back({j, rad_per_deg * start.at(key).get<double>(), rad_per_deg * end.at(key).get<double>()});
+      const auto of = [&](const nlohmann::json& posture) {
+        return within(human_.skeleton.joints[j], rad_per_deg * posture.at(key).get<double>());
+      };
+      if (j >= 0) drives_.push_back({j, of(start), of(end)});
     };
     drive("lumbar_flexion", "lumbar_flexion");
     drive("neck_flexion", "neck_flexion");

@@ -3,8 +3,9 @@
 
     rooms.py GAMBESON [--build DIR]    DIR: of CMake, to compile an include against the arrows
 
-Every source has its header or says in its first line whose detail it is; no include goes by "..", round the link guard; and an
-include of a room above does not compile.
+Every source has its header or says in its first line whose detail it is; no include goes by "..", round the link guard; an
+include of a room above does not compile; and no two headers define types of one name in one namespace, which a linker would take
+for one.
 """
 import argparse
 import json
@@ -46,6 +47,27 @@ def by_dots():
     return [str(f.relative_to(SOURCE)) for f in sources(".cpp", ".hpp") if re.search(r'#include\s+"[^"]*\.\./', f.read_text())]
 
 
+def types_of(header):
+    """Types that a header defines, with their namespaces, by the house's layout: both begin a line."""
+    rooms = []
+    for line in header.read_text().splitlines():
+        if opened := re.match(r"namespace ([\w:]+) \{", line):
+            rooms.append(opened[1])
+        elif re.match(r"\}\s+// namespace", line) and rooms:
+            rooms.pop()
+        elif named := re.match(r"(?:template ?<.*> )?(?:struct|class|enum class|enum|union) (?:alignas\(\d+\) )?(\w+)[^;()]*\{", line):
+            yield "::".join([*rooms, named[1]])
+
+
+def twice():
+    where = {}
+    for room in ["core", "gpu", *ROOMS]:
+        for header in sorted((SOURCE / room).rglob("*.hpp")):  # what .cuh has stands in place of its .hpp
+            for name in types_of(header):
+                where.setdefault(name, []).append(str(header.relative_to(SOURCE)))
+    return {name: files for name, files in where.items() if len(files) > 1}
+
+
 def has(file, source):
     """Whether this compiled file is that source, or is made of it and others (cases/joined.cmake)."""
     return file == SOURCE / source or "joined" in file.parts and f'#include "{source}"\n' in file.read_text()
@@ -74,6 +96,7 @@ def main():
     options = parser.parse_args()
     check(not without_header(), f"neither a header nor a first line that says whose detail it is: {without_header()}")
     check(not by_dots(), f"includes by ..: {by_dots()}")
+    check(not twice(), f"two types of one name: {twice()}")
     if options.build:
         check(compiles(options.build, "cases/wear/case/rules.cpp", "cases/input/schema.hpp"), "an include along the arrows does not compile")
         for source, header in AGAINST:

@@ -3,15 +3,12 @@
 #include <cmath>
 
 #include "core/cloth/draft/areas.hpp"
-#include "core/error.hpp"
 #include "tryon/pattern/armour.hpp"
 #include "tryon/pattern/check.hpp"
 #include "tryon/pattern/fit.hpp"
 
 namespace gambeson {
 namespace {
-
-[[noreturn]] void reject(const std::string& key, const std::string& reason) { throw InputError({"", 0, key}, reason); }
 
 void check(const BeltPattern& p) {
   requirePositive("width_m", p.width_m);

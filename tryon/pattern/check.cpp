@@ -8,11 +8,13 @@
 #include "tryon/pattern/fit.hpp"
 
 namespace gambeson {
+
+void reject(const std::string& key, const std::string& reason) { throw InputError({"", 0, key}, reason); }
+
 namespace {
 
 constexpr double tolerance_m = 1e-9;
 
-[[noreturn]] void reject(const std::string& key, const std::string& reason) { throw InputError({"", 0, key}, reason); }
 std::string item(const std::string& list, std::size_t i) { return list + "[" + std::to_string(i) + "]"; }
 std::string number(double x) {
   char s[32];

@@ -1,9 +1,13 @@
 #pragma once
 /// What a pattern's numbers and a garment must satisfy; each throws InputError with the key.
 
+#include <string>
+
 #include "core/cloth/draft/garment.hpp"
 
 namespace gambeson {
+
+[[noreturn]] void reject(const std::string& key, const std::string& reason);
 
 void requirePositive(const char* key, double value);
 void requireDegree(int degree, int least);

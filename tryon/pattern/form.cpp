@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.hpp"
 #include "human/body/skin.hpp"
 #include "human/motion/standing.hpp"
+#include "tryon/pattern/check.hpp"
 
 namespace gambeson {
 namespace {
-
-[[noreturn]] void reject(const char* key, const std::string& reason) { throw InputError({"", 0, key}, reason); }
 
 bool isOf(const Links& of, int link) { return std::find(of.begin(), of.end(), link) != of.end(); }
 

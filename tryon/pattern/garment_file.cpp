@@ -23,8 +23,6 @@ constexpr int deepest = 16;
 constexpr double largest_coordinate_m = 1000;  // as of meshes: far beyond any garment, near enough to keep its digits
 constexpr const char* side_names[] = {"u0", "u1", "v0", "v1"};
 
-[[noreturn]] void reject(const std::string& key, const std::string& reason) { throw InputError({"", 0, key}, reason); }
-
 std::string shown(const Json& j) {
   std::string s = j.dump(-1, ' ', false, Json::error_handler_t::replace);
   return s.size() > 40 ? s.substr(0, 40) + "..." : s;

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/cloth/draft/part_seam.hpp"
-#include "core/error.hpp"
 #include "tryon/pattern/armour.hpp"
 #include "tryon/pattern/check.hpp"
 #include "tryon/pattern/fit.hpp"
@@ -17,8 +16,6 @@
 
 namespace gambeson {
 namespace {
-
-[[noreturn]] void reject(const std::string& key, const std::string& reason) { throw InputError({"", 0, key}, reason); }
 
 void check(const ShirtPattern& p) {
   for (const auto& [key, value] :

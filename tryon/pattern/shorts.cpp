@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.hpp"
 #include "tryon/pattern/check.hpp"
 #include "tryon/pattern/fit.hpp"
 #include "tryon/pattern/form.hpp"
@@ -13,8 +12,6 @@
 
 namespace gambeson {
 namespace {
-
-[[noreturn]] void reject(const std::string& key, const std::string& reason) { throw InputError({"", 0, key}, reason); }
 
 /// Below the waist edge the waist's ease goes over into that of the rest.
 constexpr double waist_band_m = 0.12;

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <map>
 
-#include "core/error.hpp"
 #include "tryon/pattern/armour.hpp"
 #include "tryon/pattern/check.hpp"
 #include "tryon/pattern/fit.hpp"
@@ -12,8 +11,6 @@ namespace gambeson {
 namespace {
 
 constexpr int panels = 8;
-[[noreturn]] void reject(const std::string& key, const std::string& reason) { throw InputError({"", 0, key}, reason); }
-
 }  // namespace
 
 Garment makeSkirt(const SkirtPattern& p, const BodyForm& form, double layer_m, std::span<const Worn> under) {

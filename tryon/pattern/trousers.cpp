@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/error.hpp"
 #include "tryon/pattern/check.hpp"
 #include "tryon/pattern/pattern.hpp"
 
@@ -14,8 +13,6 @@ namespace {
 constexpr const char* kGarment = "garment.trousers";
 constexpr int levels = 120;  ///< at which the body is measured, a few millimetres apart
 constexpr double least_inseam_m = 0.2;
-
-[[noreturn]] void reject(const std::string& key, const std::string& reason) { throw InputError({"", 0, key}, reason); }
 
 void check(const TrousersPattern& p) {
   requirePositive("rise_m", p.rise_m);

@@ -13,6 +13,7 @@ using Matrix = Eigen::SparseMatrix<double>;
 
 /// Areas below this part of those of the triangles are none: the dual runs away, and they fall on.
 constexpr double kNone = 1e-6;
+constexpr int kMostSteps = 300;
 
 Matrix matrixOf(const SparseRows& WT) {
   std::vector<Eigen::Triplet<double>> entries;
@@ -71,14 +72,16 @@ SampleAreas positiveAreas(const SparseRows& WT, std::span<const double> free_are
   Eigen::VectorXd a = g, y = Eigen::VectorXd::Zero(A.size());
   Eigen::SimplicialLDLT<Matrix> factor;
   const double small = 1e-14 * A.maxCoeff();
-  for (int k = 0; k < 100; ++k) {
+  bool decided = false;
+  for (int k = 0; k < kMostSteps && !decided; ++k) {
     const Eigen::VectorXd left = A - W.transpose() * a;
-    if (left.cwiseAbs().maxCoeff() <= small) return {{a.data(), a.data() + a.size()}, {}};
+    if (left.cwiseAbs().maxCoeff() <= small) return {{a.data(), a.data() + a.size()}, false, {}};
     const Matrix hessian = W.transpose() * a.asDiagonal() * W;
     if (k == 0) factor.analyzePattern(hessian);
     factor.factorize(hessian);
     if (!isRegular(factor, hessian.diagonal())) {
       if (k == 0) y = unseen(hessian, A);
+      decided = true;
       break;
     }
     const Eigen::VectorXd step = factor.solve(left), move = W * step;
@@ -94,11 +97,11 @@ SampleAreas positiveAreas(const SparseRows& WT, std::span<const double> free_are
         break;
       }
     }
-    if ((a.array() / g.array()).minCoeff() < kNone) break;
+    decided = (a.array() / g.array()).minCoeff() < kNone;
   }
   const double error = (A - W.transpose() * a).cwiseAbs().maxCoeff();
-  if (error <= 1e3 * small) return {{a.data(), a.data() + a.size()}, {}};
-  return {{}, {y.data(), y.data() + y.size()}};
+  if (error <= 1e3 * small) return {{a.data(), a.data() + a.size()}, false, {}};
+  return {{}, !decided, {y.data(), y.data() + y.size()}};
 }
 
 }  // namespace gambeson

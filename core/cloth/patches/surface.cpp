@@ -240,7 +240,9 @@ Surface buildSurface(const Garment& garment, const FreeMap& map, std::span<const
         if (round < kRounds && divideWhere(garment, map, s, found.against, divided)) continue;
         throw InputError(
             {"", 0, "sampling"},
-            "no positive areas of the surface samples stand for the cloth; use another number of samples per cell");
+            (found.undecided ? "no positive areas of the surface samples were found that stand for the cloth"
+                             : "no positive areas of the surface samples stand for the cloth") +
+                std::string("; use another number of samples per cell"));
       }
       s.area_m2 = std::move(found.area_m2);
     } else {

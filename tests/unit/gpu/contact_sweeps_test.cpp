@@ -1,6 +1,7 @@
 /// Contact solves on the reference device: the bits of core, for groups of any size, and of gpu/manifest.json.
 #include "gpu/solve/contact_sweeps.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -132,7 +133,7 @@ TEST(ContactSweeps, FindWhatTheManifestHas) {
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const auto& truth = problems[i];
     const auto device = sweepsOnReference();
-    const SolveFacts facts = factsOf(solved(kept[i], kManifestIterations, device.get()));
+    const SweepFacts facts = factsOf(solved(kept[i], kManifestIterations, device.get()));
     EXPECT_EQ(truth.at("name"), kept[i].name);
     EXPECT_EQ(truth.at("rows"), facts.rows) << kept[i].name;
     EXPECT_EQ(truth.at("islands"), facts.islands) << kept[i].name;

@@ -297,6 +297,8 @@ class Placing {
     }
   }
   static bool isUpper(double looks) { return looks > 0.7; }
+  /// Short ends of a band, sewn to a fly, to panels beside it or to the band's other piece, look aside.
+  static bool isEnd(double looks) { return std::abs(looks) <= 0.7; }
 
   /// Between what a waistband is sewn to above and below it: what is below goes down until the band fits there.
   void makeRoom(int k) {
@@ -312,7 +314,7 @@ class Placing {
             if (q.panel == p.b) {
               if (isUpper(looks))
                 low = std::min(low, q.low().y);
-              else
+              else if (!isEnd(looks))
                 high = std::max(high, q.high().y);
             }
         });
@@ -376,22 +378,26 @@ class Placing {
   }
 
   /// Above what it is sewn to, its points as near in direction to those that they are sewn to as can be. A waistband
-  /// stands above what is sewn to its lower edge alone, and outside of what else there is at its height.
+  /// stands above what is sewn to its lower edge alone, where nothing is beside what its short ends are sewn to, and
+  /// outside of what else there is at its height.
   void placeRing(int k, double clearance_m, PlacedPanels& out) const {
     LaidPanel laid = upright(pattern_, k, pairs_);
     const bool band = region(k).part == Part::waistband;
     const double length = laid.high().x - laid.low().x, height = laid.high().y - laid.low().y;
-    double bottom = -1e300, roof = 1e300;
+    double bottom = -1e300, roof = 1e300, beside = 0, held = 0;
     std::vector<int> under;  // what it is sewn to below it
     eachOfRing(k, laid, [&](const SeamPair& p, double looks) {
       if (!out.bent[static_cast<std::size_t>(p.b)]) return;
       const double z = out.bent[static_cast<std::size_t>(p.b)](p.xb).z;
       if (band && isUpper(looks))
         roof = std::min(roof, z);
+      else if (band && isEnd(looks))
+        beside += p.length_m * (z - (laid.of(p.xa).y - laid.low().y)), held += p.length_m;
       else
         bottom = std::max(bottom, z), under.push_back(p.b);
     });
     if (bottom < -1e299 && roof < 1e299) bottom = roof - height - 2 * kGap_m;
+    if (bottom < -1e299 && held > 0) bottom = beside / held - kGap_m;
     if (bottom < -1e299) bottom = region(k).part == Part::collar ? top_ : waist();
     bottom += kGap_m;
     const auto eachLaid = [&](auto f) {

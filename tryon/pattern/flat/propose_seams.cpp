@@ -14,7 +14,8 @@ namespace gambeson {
 namespace {
 
 constexpr double kShortest_m = 0.02, kNotchApart_m = 5e-3, kLengthShare = 0.035, kLength_m = 2e-3, kMirror = 1e-3,
-                 kStraight = 0.03, kGoesOn = 0.4, kRound = 5e-3, kSameSide = 0.3, kUp = 0.8, kAside = 0.7;
+                 kStraight = 0.03, kGoesOn = 0.4, kRound = 5e-3, kSameSide = 0.3, kWorst = 0.999, kUp = 0.8,
+                 kAside = 0.7;
 constexpr std::size_t kMostEdges = 1000;
 
 struct Side {
@@ -139,7 +140,8 @@ std::optional<double> misfit(const Side& a, const Side& b, bool images) {
   if (images && !(a.isAside() && b.isAside())) return std::nullopt;       // no centre lines
   const double corners = 0.5 * (std::abs(a.start_rad + b.end_rad - std::numbers::pi) +
                                 std::abs(a.end_rad + b.start_rad - std::numbers::pi));
-  const double within = 0.5 * off + 0.5 * std::min(1.0, corners / std::numbers::pi) + (lookAlike(a, b) ? kSameSide : 0);
+  const double fit = 0.5 * off + 0.5 * std::min(1.0, corners / std::numbers::pi) + (lookAlike(a, b) ? kSameSide : 0),
+               within = std::min(kWorst, fit);  // of its sort, however bad
   if (images) return a.straight && b.straight ? std::optional(3 + within) : std::nullopt;
   if (a.notches.size() != b.notches.size()) return 2 + within;
   double apart = 0;

@@ -15,8 +15,8 @@ struct ProposedSeams {
 /// edges with as many notches within 5 mm of each other, then those without any, then the two edges beside a hem of one
 /// panel; worst are edges of panels that are mirror images, which are sewn only where they are nearly straight (centre
 /// lines). Within these, by how much lengths differ and how far the corners of both panels are from 180 degrees
-/// together: sewn edges lead on smoothly. Pairs beside one that is taken go before others, so that seams go on from
-/// panel to panel.
+/// together: sewn edges lead on smoothly; what is worse by its sort is not better by that. Pairs beside one that is
+/// taken go before others, so that seams go on from panel to panel.
 ///
 /// A grain line tells how a panel hangs. What looks down on both panels (hems, cuffs) is not sewn to each other, nor
 /// are two hollows that look up (necks); centre lines of mirror images and the edges beside a hem look aside; and an

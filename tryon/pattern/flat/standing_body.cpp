@@ -80,8 +80,10 @@ double StandingBody::lowest(const Links& of) const {
 
 Posture withArmsAside(const Human& human, Posture posture, double shoulder_abduction_rad) {
   for (const char* side : {"_right", "_left"})
-    if (const int shoulder = human.skeleton.joint(std::string("shoulder_abduction") + side); shoulder >= 0)
-      posture.q[static_cast<std::size_t>(shoulder)] = shoulder_abduction_rad;
+    if (const int shoulder = human.skeleton.joint(std::string("shoulder_abduction") + side); shoulder >= 0) {
+      double& now = posture.q[static_cast<std::size_t>(shoulder)];
+      now = std::max(now, shoulder_abduction_rad);
+    }
   return posture;
 }
 

@@ -46,7 +46,7 @@ class StandingBody {
   std::vector<Placement> placements_;
 };
 
-/// The posture with the arms this much from the sides, where the skeleton has shoulders.
+/// The posture with the arms at least this much from the sides, where the skeleton has shoulders.
 Posture withArmsAside(const Human& human, Posture posture, double shoulder_abduction_rad);
 
 }  // namespace gambeson

@@ -29,6 +29,13 @@ TEST(Coarseness, OfTheStripThatItIsCalibratedWith) {
   EXPECT_EQ(coarseness(f, 0.2 / 32, 10), 0);
 }
 
+/// The table beside the law: 5 % at 45, 10 at 70 to 150, 20 to 25 at 80 to 210.
+TEST(Coarseness, SaysWhatTheTableHas) {
+  EXPECT_STREQ(coarseError(20), "some 4 %");
+  EXPECT_STREQ(coarseError(45), "some 5 %");
+  for (const double N : {70.0, 80.0, 115.0, 150.0, 210.0}) EXPECT_STREQ(coarseError(N), "10 to 25 %") << N;
+}
+
 bool told(const std::vector<std::string>& overrides) {
   const auto s = buildScenario(readCase(GAMBESON_SOURCE_DIR "/cases/library/sphere_drape.json", overrides));
   return std::any_of(s->notes.begin(), s->notes.end(),

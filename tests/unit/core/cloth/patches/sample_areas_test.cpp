@@ -53,17 +53,35 @@ TEST(SampleAreas, StripsNarrowerThanACellHavePositiveOnes) {
       }
 }
 
+/// Of samples in [0, 1] under the Bernstein polynomials of degree 2.
+SampleAreas bernsteinAreas(const std::vector<double>& at, double near_m2) {
+  SparseRows W;
+  W.column_count = 3;
+  for (const double x : at) {
+    W.add(0, (1 - x) * (1 - x)), W.add(1, 2 * x * (1 - x)), W.add(2, x * x);
+    W.endRow();
+  }
+  return positiveAreas(W, std::vector<double>(3, 1.0 / 3), std::vector<double>(at.size(), near_m2));
+}
+
+/// Where the search has far to go (138 e-folds from 1e-60), the areas are found all the same; where it is farther than
+/// its steps reach (460), it does not say that there are none.
+TEST(SampleAreas, WhatWasNotFoundIsNotCalledNone) {
+  const std::vector<double> at{0, 0.1, 0.2, 0.6, 1};
+  const SampleAreas far = bernsteinAreas(at, 1e-60);
+  ASSERT_EQ(far.area_m2.size(), at.size());
+  EXPECT_NEAR(std::accumulate(far.area_m2.begin(), far.area_m2.end(), 0.0), 1, 1e-12);
+  const SampleAreas farther = bernsteinAreas(at, 1e-200);
+  EXPECT_TRUE(farther.area_m2.empty());
+  EXPECT_TRUE(farther.undecided);
+  const SampleAreas none = bernsteinAreas({0, 0.1, 0.2, 1}, 0.25);
+  EXPECT_TRUE(none.area_m2.empty());
+  EXPECT_FALSE(none.undecided);
+}
+
 /// A quadratic across two samples only: x (1 - x) vanishes at both and has an integral of 1/6.
 TEST(SampleAreas, WhatStandsAgainstThemIsAFunctionThatTheSamplesDoNotSee) {
-  const auto areas = [](const std::vector<double>& at) {  // Bernstein polynomials of degree 2
-    SparseRows W;
-    W.column_count = 3;
-    for (const double x : at) {
-      W.add(0, (1 - x) * (1 - x)), W.add(1, 2 * x * (1 - x)), W.add(2, x * x);
-      W.endRow();
-    }
-    return positiveAreas(W, std::vector<double>(3, 1.0 / 3), std::vector<double>(at.size(), 1.0 / at.size()));
-  };
+  const auto areas = [](const std::vector<double>& at) { return bernsteinAreas(at, 1.0 / at.size()); };
   // Of three samples the weights of 0.9 and 1 would be of two signs (interpolatory rule at 0, 0.1, 1).
   const SampleAreas none = areas({0, 0.1, 0.2, 1});
   ASSERT_TRUE(none.area_m2.empty());

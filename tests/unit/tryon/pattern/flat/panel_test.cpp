@@ -236,6 +236,27 @@ TEST(FlatPanel, SeamsAreProposedByLengthAndNotch) {
   }
 }
 
+/// A notch that the other side lacks is worse than any fit without notches: here the worst, 3.3 % longer, to the same
+/// side, 110 degrees off a smooth line at both ends, against one that fits in all but the notch.
+TEST(FlatPanel, ANotchThatIsMissingIsWorseThanABadFit) {
+  const auto triangle = [](const std::string& name, double side, double corner_deg) {
+    const double out = 0.5 * side * std::tan(corner_deg * pi / 180);
+    Panel p = polygonPanel(name, {{out, 0}, {out, side}, {0, 0.5 * side}});
+    p.grain = GrainLine{{0.9 * out, 0.4 * side}, {0.9 * out, 0.6 * side}};
+    return p;
+  };
+  const double down = 0.5 * std::sqrt(0.75);
+  Panel notched = polygonPanel("notched", {{0, 0}, {0.25, -down}, {0.25, 0.3 + down}, {0, 0.3}});
+  notched.grain = GrainLine{{0.1, 0.1}, {0.1, 0.2}};
+  notched.notches = {{3, 0.5, NotchKind::slit, 0}};
+  const FlatPattern p = patternOf({triangle("a", 0.3, 30), triangle("b", 0.31, 40), notched});
+  ASSERT_EQ(refusal(p), "accepted");
+  const ProposedSeams s = proposeSeams(p);
+  ASSERT_EQ(s.seams.size(), 1u);
+  EXPECT_EQ(s.seams[0].a[0].panel, 0);
+  EXPECT_EQ(s.seams[0].b[0].panel, 1);
+}
+
 /// Two tubes, a front and a back each: hems are as long as each other, necks too, and all sides are alike.
 TEST(FlatPanel, HemsAndNecksAreNotProposed) {
   const auto half = [](const std::string& name, double shift) {

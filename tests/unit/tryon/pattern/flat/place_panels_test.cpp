@@ -267,15 +267,54 @@ TEST(PlacePanels, AWaistbandStaysAtTheWaist) {
   }
 }
 
+/// A waistband of two pieces, sewn to each other in front and behind: both stand at the same height, above the skirt.
+TEST(PlacePanels, ShortEndsOfABandAreNotItsLowerEdge) {
+  const Human human = makeManikin("female_p50");
+  const StandingBody form(human, standing(human));
+  const Size size = sizeFor(form);
+  FlatPattern p = skirt(size);
+  const double w = 2 * size.scale * size.quarter_waist, h = 0.06;
+  for (const char* name : {"left band", "right band"})
+    p.panels.push_back(panel(name, "waistband", {edge(0, 0), edge(w, 0), edge(w, h), edge(0, h)}));
+  p.seams.push_back({"left front", {{2, 0, 0, 0.5}}, {{0, 2, 0.5, 0}}});
+  p.seams.push_back({"left back", {{2, 0, 0.5, 1}}, {{1, 2, 1, 0.5}}});
+  p.seams.push_back({"right back", {{3, 0, 0, 0.5}}, {{1, 2, 0.5, 0}}});
+  p.seams.push_back({"right front", {{3, 0, 0.5, 1}}, {{0, 2, 1, 0.5}}});
+  p.seams.push_back({"centre back", {{2, 1, 0, 1}}, {{3, 3, 1, 0}}});
+  p.seams.push_back({"centre front", {{3, 1, 0, 1}}, {{2, 3, 1, 0}}});
+  checkPattern(p);
+  const PlacedPanels placed = placePanels(p, form);
+  const auto z = [&](std::size_t k, Vec2 x) { return placed.bent[k](x).z; };
+  EXPECT_NEAR(z(3, {0.5 * w, 0}), z(2, {0.5 * w, 0}), 1e-9);
+  EXPECT_GT(z(3, {0.5 * w, 0}), z(0, p.panels[0].outline[2].start_m));
+  EXPECT_LT(z(3, {0.5 * w, 0}), z(0, p.panels[0].outline[2].start_m) + h);
+  EXPECT_GT(placed.bent[2]({0.5 * w, 0}).y, 0.05);
+  EXPECT_LT(placed.bent[3]({0.5 * w, 0}).y, -0.05);
+}
+
+/// Arms of a scan may hang no lower than its trunk and sleeves let them.
+TEST(PlacePanels, ArmsThatCannotHangAreNotBroughtIn) {
+  Human human = makeManikin("male_p50");
+  const auto shoulder = static_cast<std::size_t>(human.skeleton.joint("shoulder_abduction_left"));
+  human.skeleton.joints[shoulder].lower = 1;
+  EXPECT_EQ(withArmsAside(human, standing(human), kAside).q[shoulder], 1);
+  EXPECT_EQ(withArmsAside(human, standing(human), 1.2).q[shoulder], 1.2);
+}
+
 /// Arms straight to the sides, and straight forward: the sleeve lies along the arm, open where the trunk is.
 TEST(PlacePanels, SleevesGoAlongArmsThatAreRaised) {
   const Human human = makeManikin("male_p50");
   for (const bool forward : {false, true}) {
-    Posture posture = withArmsAside(human, standing(human), forward ? 0 : 0.5 * std::numbers::pi);
+    Posture posture = standing(human);
+    if (!forward) posture = withArmsAside(human, posture, 0.5 * std::numbers::pi);
     if (forward)
-      for (const char* side : {"left", "right"})
-        posture.q[static_cast<std::size_t>(human.skeleton.joint(std::string("shoulder_flexion_") + side))] =
-            0.5 * std::numbers::pi;
+      for (const std::string side : {"left", "right"}) {
+        const auto joint = [&](const std::string& name) -> double& {
+          return posture.q[static_cast<std::size_t>(human.skeleton.joint(name + side))];
+        };
+        joint("shoulder_abduction_") = 0;
+        joint("shoulder_flexion_") = 0.5 * std::numbers::pi;
+      }
     const StandingBody form(human, posture);
     const FlatPattern whole = shirt(sizeFor(form));
     FlatPattern p = whole;
