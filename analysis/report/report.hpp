@@ -1,6 +1,6 @@
 #pragma once
 /// One self-contained page about one run: what the garment costs its wearer, first in a sentence, then in numbers,
-/// plots and pictures, then why to trust it. The page asks the network for nothing and needs no script.
+/// plots and pictures, then why to trust it. The page asks the network for nothing and is whole without its scripts.
 ///
 /// Comparing several runs is a page of its own that takes a list of these inputs; nothing here assumes that there is
 /// one.
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "analysis/trust.hpp"
+#include "analysis/viewer/viewer.hpp"
 
 namespace gambeson {
 
@@ -127,6 +128,7 @@ struct ReportInput {
   std::vector<Plot> collision_plots;  ///< what met what, window by window
   std::vector<Table> collision_tables;
   std::vector<Picture> pictures;  ///< the first stands beside the headline
+  std::vector<ViewerRun> viewer;  ///< one run to look around in, or none
   std::vector<AuditCheck> audit;
   std::vector<Stretch> stretch;  ///< of the fabrics, against what they are meant for
   std::vector<std::string> assumptions;
