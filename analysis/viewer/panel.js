@@ -269,7 +269,7 @@ class Viewer {
     if (this.runs.length > 1) {
       const height = this.canvas.clientHeight;
       this.labels.replaceChildren(...this.stage.places().map(([x, y, w, h], k) => {
-        const e = element('span', {}, this.runs[k].head.label);
+        const e = element('span', {}, element('b', {}, this.runs[k].head.label));
         Object.assign(e.style, { left: `${x}px`, top: `${height - y - h}px`, width: `${w}px` });
         return e;
       }));

@@ -240,7 +240,7 @@ class Stage {
     if (axis.length() > 0.05 && away.dot(axis) < 0) away.negate();
     away.z = Math.max(-0.3, Math.min(0.6, away.z + 0.15));
     if (away.length() < 0.2) away.copy(axis);
-    this.go(at, at.clone().addScaledVector(away.normalize(), 0.9));
+    this.go(at, at.clone().addScaledVector(away.normalize(), 1.2));
   }
 
   /// In a quarter of a second, or at once where motion is not wanted.
