@@ -20,7 +20,7 @@ class Arrows {
     this.geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(corners), 1));
     this.geometry.setAttribute('position', new THREE.BufferAttribute(this.x, 3).setUsage(THREE.DynamicDrawUsage));
     this.geometry.setAttribute('normal', new THREE.BufferAttribute(this.n, 3).setUsage(THREE.DynamicDrawUsage));
-    this.object = new THREE.Mesh(this.geometry, surfaceMaterial([0.80, 0.08, 0.10], 0, 0.1, shared));
+    this.object = new THREE.Mesh(this.geometry, surfaceMaterial([0.80, 0.08, 0.10], 0, shared));
     this.object.frustumCulled = false;
   }
 

@@ -1,24 +1,34 @@
 // The ground: a grid of half metres that fades out, and the soft shadow of what stands on it.
 
-const kCells = 64, kHalf_m = 1.6, kGround_m = 4;
+const kCells = 48, kHalf_m = 1.2, kGrid_m = 0.5, kReach = 6;
 
-const kGroundVertex = `
+const kShadowVertex = `
+  precision highp float;
+  attribute vec3 position;
+  uniform mat4 modelViewMatrix, projectionMatrix;
   varying vec2 v_at;
-  void main() { v_at = position.xy; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`;
-
-const kGroundFragment = `
+  void main() { v_at = position.xy / 2.4 + 0.5; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`;
+const kShadowFragment = `
+  precision mediump float;
   uniform sampler2D shadow;
-  uniform vec2 offset;
   varying vec2 v_at;
-  float line(float x) { float d = abs(fract(x - 0.5) - 0.5) / fwidth(x); return 1.0 - min(d, 1.0); }
+  void main() { gl_FragColor = vec4(0.13, 0.15, 0.22, 0.5 * texture2D(shadow, v_at).r); }`;
+
+const kGridVertex = `
+  precision highp float;
+  attribute vec3 position;
+  uniform mat4 modelViewMatrix, projectionMatrix;
+  uniform vec2 offset;
+  varying float v_fade;
   void main() {
-    float fade = 1.0 - smoothstep(0.35, 1.0, length(v_at) / 4.0);
-    vec2 p = (v_at + offset) / 0.5;
-    float grid = max(line(p.x), line(p.y)) * 0.16;
-    vec2 uv = v_at / 3.2 + 0.5;
-    float dark = uv.x > 0.0 && uv.x < 1.0 && uv.y > 0.0 && uv.y < 1.0 ? texture2D(shadow, uv).r : 0.0;
-    gl_FragColor = vec4(0.16, 0.18, 0.25, max(grid, 0.50 * dark) * fade);
+    vec3 at = vec3(position.xy - offset, position.z);
+    v_fade = 1.0 - smoothstep(0.9, 2.9, length(at.xy));
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(at, 1.0);
   }`;
+const kGridFragment = `
+  precision mediump float;
+  varying float v_fade;
+  void main() { gl_FragColor = vec4(0.42, 0.46, 0.55, 0.34 * v_fade); }`;
 
 class Ground {
   constructor() {
@@ -27,25 +37,40 @@ class Ground {
     this.bytes = new Uint8Array(kCells * kCells);
     this.texture = new THREE.DataTexture(this.bytes, kCells, kCells, THREE.LuminanceFormat);
     this.texture.minFilter = this.texture.magFilter = THREE.LinearFilter;
-    this.material = new THREE.ShaderMaterial({
-      vertexShader: kGroundVertex, fragmentShader: kGroundFragment, transparent: true, depthWrite: false,
-      extensions: { derivatives: true },
-      uniforms: { shadow: { value: this.texture }, offset: { value: new THREE.Vector2() } },
-    });
-    this.object = new THREE.Mesh(new THREE.PlaneBufferGeometry(2 * kGround_m, 2 * kGround_m), this.material);
+    const raw = (vertexShader, fragmentShader, uniforms) =>
+      new THREE.RawShaderMaterial({ vertexShader, fragmentShader, uniforms, transparent: true, depthWrite: false });
+    const shadow = new THREE.Mesh(new THREE.PlaneBufferGeometry(2 * kHalf_m, 2 * kHalf_m), raw(kShadowVertex, kShadowFragment, { shadow: { value: this.texture } }));
+    this.offset = new THREE.Vector2();
+    const lines = [];
+    // In pieces, so that they can fade out along their length.
+    for (let i = -kReach; i <= kReach; ++i)
+      for (let j = -kReach; j < kReach; ++j) {
+        const a = kGrid_m * i, b = kGrid_m * j, c = kGrid_m * (j + 1);
+        lines.push(a, b, 0, a, c, 0, b, a, 0, c, a, 0);
+      }
+    const grid = new THREE.BufferGeometry();
+    grid.setAttribute('position', new THREE.BufferAttribute(new Float32Array(lines), 3));
+    this.grid = new THREE.LineSegments(grid, raw(kGridVertex, kGridFragment, { offset: { value: this.offset } }));
+    this.object = new THREE.Group();
+    shadow.renderOrder = 1;
+    this.grid.frustumCulled = shadow.frustumCulled = false;
+    this.object.add(this.grid, shadow);
   }
 
-  /// What is low throws a dark and sharp shadow, what is high a faint one. `add(x, y, height)` is called back.
+  /// The lines stay where they are in the world, under a wearer who moves on.
+  stand(x, y) { this.offset.set(x - kGrid_m * Math.floor(x / kGrid_m), y - kGrid_m * Math.floor(y / kGrid_m)); }
+
+  /// What is low throws a dark and sharp shadow, what is high a faint one. `each` calls back with x, y and height.
   shade(each) {
     this.cells.fill(0);
     const size = kCells / (2 * kHalf_m), cells = this.cells;
     each((x, y, height) => {
       const i = Math.floor((x + kHalf_m) * size), j = Math.floor((y + kHalf_m) * size);
-      if (i < 0 || j < 0 || i >= kCells || j >= kCells) return;
+      if (i < 2 || j < 2 || i >= kCells - 2 || j >= kCells - 2) return;
       const dark = 0.16 + 0.84 / (1 + 40 * height * height);
       if (dark > cells[j * kCells + i]) cells[j * kCells + i] = dark;
     });
-    for (let pass = 0; pass < 4; ++pass) { this.blur(cells, this.spare, 1, kCells); this.blur(this.spare, cells, kCells, 1); }
+    for (let pass = 0; pass < 3; ++pass) { this.blur(cells, this.spare, 1, kCells); this.blur(this.spare, cells, kCells, 1); }
     for (let i = 0; i < cells.length; ++i) this.bytes[i] = 255 * Math.min(1, 1.35 * cells[i]);
     this.texture.needsUpdate = true;
   }

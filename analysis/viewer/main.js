@@ -10,8 +10,9 @@ const withoutViewer = (root, why) => {
 const startViewer = async () => {
   const root = document.getElementById('viewer');
   if (!root) return null;
-  const probe = document.createElement('canvas');
-  if (!(probe.getContext('webgl') || probe.getContext('experimental-webgl')))
+  const canvas = document.createElement('canvas');
+  const context = canvas.getContext('webgl', { antialias: false, alpha: true, premultipliedAlpha: true });
+  if (!context)
     return withoutViewer(root, 'To look around in three dimensions takes WebGL, which this browser does not offer.');
   if (typeof DecompressionStream === 'undefined')
     return withoutViewer(root, 'To look around in three dimensions takes a browser of 2023 or later.');
@@ -26,7 +27,7 @@ const startViewer = async () => {
     runs.push(await new Run(JSON.parse(script.textContent), blocks).load());
   }
   root.closest('section').hidden = false;
-  const viewer = new Viewer(root, runs, colors), start = runs[0].head.start;
+  const viewer = new Viewer(root, canvas, context, runs, colors), start = runs[0].head.start;
   const named = start.field && runs[0].fieldHead(start.field) ? start.field : (runs[0].head.fields[0] || { name: '' }).name;
   viewer.time = start.time_s;
   viewer.setTime(start.time_s);

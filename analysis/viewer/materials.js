@@ -1,52 +1,65 @@
-// How things look: cloth from both sides, bodies, arrows, the ground.
+// How things look: cloth from both sides, bodies, arrows, lines. Light is worked out at the vertices, which are dense, and not at the
+// pixels, which are many: browsers without a graphics card draw as well.
 
 const kVertex = `
+  precision highp float;
+  attribute vec3 position, normal;
   attribute float value;
-  uniform float back_m;
-  varying float v_value;
-  varying vec3 v_normal, v_at;
+  uniform mat4 modelViewMatrix, projectionMatrix;
+  uniform mat3 normalMatrix;
+  uniform float back_m, coloured, low, high;
+  uniform vec3 up;
+  varying vec4 v_light;  // of the outside and of the inside, shine of both
+  varying vec2 v_value;  // along the colours; whether there is one
+  const vec3 key = vec3(-0.448, 0.647, 0.617), fill = vec3(0.869, 0.109, 0.482);
+  vec2 lit(vec3 n, vec3 eye) {
+    float facing = max(dot(n, eye), 0.0), rim = 1.0 - facing;
+    float sky = 0.5 + 0.5 * dot(n, up), half_way = max(dot(n, normalize(key + eye)), 0.0);
+    float shine = half_way * half_way; shine *= shine; shine *= shine; shine *= shine;
+    return vec2(0.56 + 0.20 * sky + 0.28 * max(dot(n, key), 0.0) + 0.09 * max(dot(n, fill), 0.0), 0.10 * rim * rim * rim * sky + 0.06 * shine);
+  }
   void main() {
     vec4 at = modelViewMatrix * vec4(position, 1.0);
     gl_Position = projectionMatrix * at;
     // Farther away by back_m as far as depth goes: cloth that touches is in front of what it touches.
-    vec4 behind = projectionMatrix * vec4(at.xyz * (1.0 + back_m / length(at.xyz)), 1.0);
-    gl_Position.z = behind.z / behind.w * gl_Position.w;
-    v_value = value;
-    v_normal = normalMatrix * normal;
-    v_at = at.xyz;
+    gl_Position.z += projectionMatrix[3][2] * back_m / at.z;
+    vec3 n = normalize(normalMatrix * normal), eye = normalize(-at.xyz);
+    vec2 front = lit(n, eye), behind = lit(-n, eye);
+    v_light = vec4(front.x, 0.86 * behind.x, front.y, 0.6 * behind.y);
+    v_value = vec2((value - low) / (high - low), coloured > 0.5 && value > -1e20 ? 1.0 : 0.0);
   }`;
 
 const kFragment = `
+  precision mediump float;
   uniform vec3 plain;
   uniform sampler2D colors;
-  uniform float low, high, coloured, sheen;
-  uniform vec3 up;
-  varying float v_value;
-  varying vec3 v_normal, v_at;
-  vec3 linear(vec3 c) { return c * (c * (c * 0.305306011 + 0.682171111) + 0.012522878); }
+  varying vec4 v_light;
+  varying vec2 v_value;
   void main() {
-    vec3 n = normalize(v_normal), eye = normalize(-v_at);
-    float inside = 1.0;
-    if (dot(n, eye) < 0.0) { n = -n; }
-    if (!gl_FrontFacing) inside = 0.82;
-    vec3 base = plain;
-    if (coloured > 0.5 && v_value > -1e20)
-      base = texture2D(colors, vec2(clamp((v_value - low) / (high - low), 0.0, 1.0) * 0.99609375 + 0.001953125, 0.5)).rgb;
-    base = linear(base) * inside;
-    float key = max(dot(n, normalize(vec3(-0.45, 0.65, 0.62))), 0.0);
-    float fill = max(dot(n, normalize(vec3(0.8, 0.1, 0.45))), 0.0);
-    float sky = 0.5 + 0.5 * dot(n, up);
-    float rim = pow(1.0 - max(dot(n, eye), 0.0), 3.0);
-    float shine = pow(max(dot(n, normalize(normalize(vec3(-0.45, 0.65, 0.62)) + eye)), 0.0), 28.0);
-    vec3 c = base * (0.30 + 0.34 * sky + 0.52 * key + 0.16 * fill) + vec3(0.10 * rim * (0.3 + 0.7 * sky) + sheen * shine);
-    gl_FragColor = vec4(pow(clamp(c, 0.0, 1.0), vec3(1.0 / 2.2)), 1.0);
+    vec2 light = gl_FrontFacing ? v_light.xz : v_light.yw;
+    vec3 base = v_value.y > 0.999 ? texture2D(colors, vec2(clamp(v_value.x, 0.0, 1.0) * 0.99609375 + 0.001953125, 0.5)).rgb : plain;
+    gl_FragColor = vec4(base * light.x + light.y, 1.0);
   }`;
 
+const kPlainVertex = `
+  precision highp float;
+  attribute vec3 position;
+  uniform mat4 modelViewMatrix, projectionMatrix;
+  void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`;
+const kPlainFragment = `
+  precision mediump float;
+  uniform vec4 color;
+  void main() { gl_FragColor = color; }`;
+
 /// `shared`: uniforms that all materials of the page have in common.
-const surfaceMaterial = (color, back_m, sheen, shared) => new THREE.ShaderMaterial({
+const surfaceMaterial = (color, back_m, shared) => new THREE.RawShaderMaterial({
   vertexShader: kVertex, fragmentShader: kFragment, side: THREE.DoubleSide,
-  uniforms: { ...shared, plain: { value: new THREE.Vector3(...color) }, back_m: { value: back_m }, coloured: { value: 0 },
-              sheen: { value: sheen } },
+  uniforms: { ...shared, plain: { value: new THREE.Vector3(...color) }, back_m: { value: back_m }, coloured: { value: 0 } },
+});
+
+/// One colour with its opacity (premultiplied by the browser's rule of canvases).
+const plainMaterial = (r, g, b, a = 1) => new THREE.RawShaderMaterial({
+  vertexShader: kPlainVertex, fragmentShader: kPlainFragment, transparent: a < 1, uniforms: { color: { value: new THREE.Vector4(r, g, b, a) } },
 });
 
 const colorTexture = colors => {

@@ -4,7 +4,9 @@ const kShownViews = [['front', 'Front'], ['back', 'Back'], ['left', 'Left'], ['r
 const capital = text => text.charAt(0).toUpperCase() + text.slice(1);
 
 class Viewer {
-  constructor(root, runs, colors) {
+  /// `canvas` with its `context`; `run`s and the colours of all fields.
+  constructor(root, canvas, context, runs, colors) {
+    this.canvas = canvas;
     this.root = root;
     this.runs = runs;
     this.state = { playing: false, speed: 1, field: null, forces: true, hidden: new Set() };
@@ -12,15 +14,16 @@ class Viewer {
     this.clock = longest.times;
     this.time = this.clock[0];
     this.build(colors);
-    this.stage = new Stage(this.canvas, runs, colors);
+    this.stage = new Stage(canvas, context, runs, colors);
     this.plots = new Plots((time, svg) => this.pickMoment(time, svg));
     this.listen();
   }
 
   build(colors) {
     const button = (text, act, more = {}) => element('button', { type: 'button', onclick: act, ...more }, text);
-    this.canvas = element('canvas', { tabindex: '0', role: 'application', 'aria-roledescription': 'view in three dimensions',
-      'aria-label': 'The wearer and the garments. Arrow keys turn, plus and minus zoom, space plays, comma and full stop step from frame to frame.' });
+    const told = { tabindex: '0', role: 'application', 'aria-roledescription': 'view in three dimensions',
+      'aria-label': 'The wearer and the garments. Arrow keys turn, plus and minus zoom, space plays, comma and full stop step from frame to frame.' };
+    for (const [name, value] of Object.entries(told)) this.canvas.setAttribute(name, value);
     this.reading = element('div', { class: 'reading', role: 'status', 'aria-live': 'polite' });
     this.labels = element('div', { class: 'labels', 'aria-hidden': 'true' });
     this.scale = element('div', { class: 'scale', 'aria-hidden': 'true' });

@@ -29,7 +29,7 @@ class Actor {
       attribute('position', mesh.x, 3);
       attribute('normal', mesh.n, 3);
       attribute('value', mesh.values, 1);
-      mesh.object = new THREE.Mesh(geometry, surfaceMaterial(color, back_m, cloth ? 0.03 : 0.05, shared));
+      mesh.object = new THREE.Mesh(geometry, surfaceMaterial(color, back_m, shared));
       mesh.object.frustumCulled = false;
       mesh.object.matrixAutoUpdate = false;
       this.root.add(mesh.object);
@@ -38,7 +38,7 @@ class Actor {
       const border = new THREE.BufferGeometry();
       border.setIndex(new THREE.BufferAttribute(bordersOf(mesh.corners, mesh.vertices), 1));
       border.setAttribute('position', geometry.attributes.position);
-      mesh.border = new THREE.LineSegments(border, new THREE.LineBasicMaterial({ color: 0x2a2f3a, transparent: true, opacity: 0.55 }));
+      mesh.border = new THREE.LineSegments(border, plainMaterial(0.16, 0.18, 0.23, 0.6));
       mesh.border.frustumCulled = false;
       this.root.add(mesh.border);
     }
@@ -48,7 +48,7 @@ class Actor {
     }
     this.ground = new Ground();
     this.scene.add(this.ground.object);
-    this.mark = new THREE.Mesh(new THREE.SphereBufferGeometry(0.006, 16, 12), new THREE.MeshBasicMaterial({ color: 0x1b1f27 }));
+    this.mark = new THREE.Mesh(new THREE.SphereBufferGeometry(0.006, 16, 12), plainMaterial(0.106, 0.122, 0.153));
     this.mark.visible = false;
     this.root.add(this.mark);
     this.height = this.lowest();
@@ -108,7 +108,7 @@ class Actor {
       if (forces) this.arrows.show(run.nearestFrame(time), scale_m_per_N);
     }
     const origin = this.turned(run.originAt(at));
-    this.ground.material.uniforms.offset.value.set(origin.x, origin.y);
+    this.ground.stand(origin.x, origin.y);
     this.shade();
     this.time = time;
     if (this.marked) this.setMark(this.marked);
@@ -157,9 +157,10 @@ class Actor {
 }
 
 class Stage {
-  constructor(canvas, runs, colors) {
+  /// `context`: of the canvas, which was asked for already.
+  constructor(canvas, context, runs, colors) {
     this.canvas = canvas;
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true });
+    this.renderer = new THREE.WebGLRenderer({ canvas, context });
     this.renderer.setClearColor(0x000000, 0);
     this.renderer.autoClear = false;
     this.shared = { colors: { value: colorTexture(colors) }, low: { value: 0 }, high: { value: 1 }, up: { value: new THREE.Vector3(0, 1, 0) } };
@@ -186,11 +187,32 @@ class Stage {
   }
 
   resize() {
-    const { clientWidth: w, clientHeight: h } = this.canvas;
-    if (!(w > 0 && h > 0)) return;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
-    this.renderer.setSize(w, h, false);
+    this.sharpness = 0;
     this.draw();
+  }
+
+  /// Pixels of the picture for each of the page: what stands is drawn with four times as many, which smooths its edges; what moves
+  /// with no more than the browser keeps up with.
+  sharpen(ratio) {
+    const { clientWidth: w, clientHeight: h } = this.canvas;
+    if (this.sharpness === ratio || !(w > 0 && h > 0)) return;
+    this.sharpness = ratio;
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(w, h, false);
+  }
+
+  plainRatio() { return Math.min(window.devicePixelRatio || 1, 2); }
+  fineRatio() { return Math.max(2, this.plainRatio()); }
+
+  /// How fast pictures follow each other while they move: smooth ones where there is time for them.
+  pace(now) {
+    const took = now - (this.before || 0);
+    this.before = now;
+    if (took > 250) return;
+    this.mean = 0.9 * (this.mean || 17) + 0.1 * took;
+    this.paced = (this.paced || 0) + 1;
+    if (this.smooth && this.mean > 24) { this.smooth = false; this.tried = (this.tried || 0) + 1; this.paced = 0; }
+    if (!this.smooth && this.paced > 30 && this.mean < 18 && (this.tried || 0) < 2) { this.smooth = true; this.paced = 0; }
   }
 
   /// Not before the next picture of the browser, and once for all that changed.
@@ -201,6 +223,14 @@ class Stage {
   }
 
   drawNow() {
+    this.pace(performance.now());
+    this.paint(this.smooth ? this.fineRatio() : this.plainRatio());
+    clearTimeout(this.rest);
+    this.rest = setTimeout(() => { if (!this.waiting) this.paint(this.fineRatio()); }, 220);
+  }
+
+  paint(ratio) {
+    this.sharpen(ratio);
     const { renderer, camera } = this;
     renderer.setScissorTest(false);
     renderer.clear();
