@@ -332,8 +332,7 @@ std::string headlineOf(const ReportInput& input) {
 }
 
 std::string formatReport(const ReportInput& in) {
-  std::string body =
-      alarms(in) + headline(in) + notesOf(in.notes) + foundText(in.found) + viewerSection(in.viewer);
+  std::string body = alarms(in) + headline(in) + notesOf(in.notes) + foundText(in.found) + viewerSection(in.viewer);
   if (!in.joints.empty() || in.outcome.empty())
     body +=
         pageSectionOf("joints", "What each joint pays",

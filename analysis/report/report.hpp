@@ -113,9 +113,9 @@ struct ReportInput {
   std::vector<std::string> warnings;  ///< shown at the top: "The run stopped at 1.2 s: ..."
   bool played = true;  ///< what the run is to judge was played; else no light is green, and a warning says why
   std::string no_share = "this task has no reference moment";  ///< why a share of the natural moment is not known
-  std::vector<std::string> notes;  ///< in a milder tone, with the headline: what bears on it
-  std::vector<std::string> found;  ///< folded below the headline: what was found and made on the way; those with the
-                                   ///< same words before their first colon stand under these
+  std::vector<std::string> notes;    ///< in a milder tone, with the headline: what bears on it
+  std::vector<std::string> found;    ///< folded below the headline: what was found and made on the way; those with the
+                                     ///< same words before their first colon stand under these
   std::vector<JointSummary> joints;  ///< the headline is the largest |peak|
   std::string outcome;               ///< the headline of a run without joints, one or two sentences
   std::vector<Plot> torques;

@@ -7,10 +7,10 @@ const kVertex = `
   attribute float value;
   uniform mat4 modelViewMatrix, projectionMatrix;
   uniform mat3 normalMatrix;
-  uniform float back_m, coloured, low, high;
+  uniform float back_m, coloured, bare, low, high;
   uniform vec3 up;
   varying vec4 v_light;  // of the outside and of the inside, shine of both
-  varying vec2 v_value;  // along the colours; whether there is one
+  varying vec3 v_value;  // along the colours; whether there is one; how much of it is shown
   const vec3 key = vec3(-0.448, 0.647, 0.617), fill = vec3(0.869, 0.109, 0.482);
   vec2 lit(vec3 n, vec3 eye) {
     float facing = max(dot(n, eye), 0.0), rim = 1.0 - facing;
@@ -26,7 +26,8 @@ const kVertex = `
     vec3 n = normalize(normalMatrix * normal), eye = normalize(-at.xyz);
     vec2 front = lit(n, eye), behind = lit(-n, eye);
     v_light = vec4(front.x, 0.86 * behind.x, front.y, 0.6 * behind.y);
-    v_value = vec2((value - low) / (high - low), coloured > 0.5 && value > -1e20 ? 1.0 : 0.0);
+    float t = (value - low) / (high - low);
+    v_value = vec3(t, coloured > 0.5 && value > -1e20 ? 1.0 : 0.0, bare > 0.5 ? 20.0 * value / high : 1.0);
   }`;
 
 const kFragment = `
@@ -34,10 +35,14 @@ const kFragment = `
   uniform vec3 plain;
   uniform sampler2D colors;
   varying vec4 v_light;
-  varying vec2 v_value;
+  varying vec3 v_value;
   void main() {
     vec2 light = gl_FrontFacing ? v_light.xz : v_light.yw;
-    vec3 base = v_value.y > 0.999 ? texture2D(colors, vec2(clamp(v_value.x, 0.0, 1.0) * 0.99609375 + 0.001953125, 0.5)).rgb : plain;
+    vec3 base = plain;
+    if (v_value.y > 0.999) {
+      vec3 color = texture2D(colors, vec2(clamp(v_value.x, 0.0, 1.0) * 0.99609375 + 0.001953125, 0.5)).rgb;
+      base = mix(plain, color, clamp(v_value.z, 0.0, 1.0));
+    }
     gl_FragColor = vec4(base * light.x + light.y, 1.0);
   }`;
 
@@ -54,7 +59,7 @@ const kPlainFragment = `
 /// `shared`: uniforms that all materials of the page have in common.
 const surfaceMaterial = (color, back_m, shared) => new THREE.RawShaderMaterial({
   vertexShader: kVertex, fragmentShader: kFragment, side: THREE.DoubleSide,
-  uniforms: { ...shared, plain: { value: new THREE.Vector3(...color) }, back_m: { value: back_m }, coloured: { value: 0 } },
+  uniforms: { ...shared, plain: { value: new THREE.Vector3(...color) }, back_m: { value: back_m }, coloured: { value: 0 }, bare: { value: 0 } },
 });
 
 /// One colour with its opacity (premultiplied by the browser's rule of canvases).

@@ -96,9 +96,9 @@ PackedValues packedValues(std::span<const std::vector<float>> values) {
   out.codes.of.reserve(out.codes.frames * out.codes.vertices);
   for (const auto& frame : values)
     for (const float v : frame)
-      out.codes.of.push_back(std::isfinite(v)
-                                 ? static_cast<std::int16_t>(std::lround(std::asinh(v / out.scale) / PackedValues::kStep))
-                                 : PackedValues::kNone);
+      out.codes.of.push_back(
+          std::isfinite(v) ? static_cast<std::int16_t>(std::lround(std::asinh(v / out.scale) / PackedValues::kStep))
+                           : PackedValues::kNone);
   return out;
 }
 

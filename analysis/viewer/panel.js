@@ -37,7 +37,7 @@ class Viewer {
       ...[[0.1, '1/10 speed'], [0.25, '1/4 speed'], [0.5, '1/2 speed'], [1, 'Real speed']].map(([v, text]) => element('option', { value: String(v) }, text)));
     this.speed.value = '1';
     const start = this.runs[0].head.start;
-    const peak = button('Peak', () => { this.setPlaying(false); this.setTime(start.time_s); }, { class: 'quiet', title: 'To the moment of the largest added torque' });
+    const peak = button('Peak', () => { this.setPlaying(false); this.setTime(start.time_s); }, { class: 'quiet', title: 'To the moment of the peak' });
     const transport = element('div', { class: 'transport' }, this.play, this.slider, this.now, peak, this.speed);
 
     this.choice = element('select', { 'aria-label': 'Colours show', onchange: event => this.setField(event.target.value) });
@@ -65,7 +65,9 @@ class Viewer {
     if (this.runs.some(run => run.arrows)) toggle('forces', 'Contact forces', [0.80, 0.08, 0.10], true);
     const tools = element('div', { class: 'tools' },
       element('div', { class: 'colours' }, this.choice, this.bar.root), element('div', { class: 'choices' }, this.views, this.layers));
+    this.way = element('a', { class: 'viewer-way', href: '#look', hidden: true, onclick: () => { this.way.hidden = true; } });
     this.root.append(this.picture, transport, tools);
+    document.body.append(this.way);
   }
 
   listen() {
@@ -76,7 +78,7 @@ class Viewer {
       this.stage.trip = (this.stage.trip || 0) + 1;
     });
     this.canvas.addEventListener('pointerup', event => {
-      if (!down || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4) return;
+      if (!down || event.button !== 0 || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4) return;
       const box = this.canvas.getBoundingClientRect();
       this.choose(event.clientX - box.left, event.clientY - box.top);
     });
@@ -113,6 +115,12 @@ class Viewer {
   pickMoment(time) {
     this.setPlaying(false);
     this.setTime(time);
+    // Where the picture is out of sight, the way to it.
+    const box = this.picture.getBoundingClientRect(), seen = Math.min(box.bottom, window.innerHeight) - Math.max(box.top, 0);
+    clearTimeout(this.offered);
+    this.way.textContent = `${this.time.toFixed(2)} s in the view`;
+    this.way.hidden = seen > 0.4 * box.height;
+    this.offered = setTimeout(() => { this.way.hidden = true; }, 8000);
   }
 
   /// Where it is not playing the picture is that of a recorded frame.
@@ -125,6 +133,7 @@ class Viewer {
   setPlaying(on) {
     if (this.state.playing === on) return;
     this.state.playing = on;
+    this.reading.setAttribute('aria-live', on ? 'off' : 'polite');
     this.play.classList.toggle('on', on);
     this.play.setAttribute('aria-label', on ? 'Pause' : 'Play');
     if (!on) return this.setTime(this.time);

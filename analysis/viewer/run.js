@@ -107,7 +107,7 @@ class Run {
     const table = this.tableOf(field), codes = field.codes, out = mesh.values;
     for (let v = 0; v < mesh.vertices; ++v) {
       const a = codes[begin + v], b = codes[next + v];
-      out[v] = a === kNoValue || b === kNoValue || field.bare && a === 0 && b === 0 ? kNone
+      out[v] = a === kNoValue || b === kNoValue ? kNone
         : table[a + 32768] + part * (table[b + 32768] - table[a + 32768]);
     }
   }

@@ -64,7 +64,7 @@ class Actor {
     let least = Infinity;
     for (let f = 0; f < frames; f += Math.max(1, Math.floor(frames / 8)))
       for (const mesh of run.meshes)
-        for (let v = 0; v < mesh.vertices; v += Math.max(1, Math.floor(mesh.vertices / 1500))) {
+        for (let v = 0; v < mesh.vertices; v += Math.max(1, Math.floor(mesh.vertices / 300))) {
           const height = this.turned(run.position(mesh, v, f)).z;
           if (height < least) least = height;
         }
@@ -88,6 +88,7 @@ class Actor {
       mesh.object.visible = mesh.shown && !(onBody && mesh.kind === 'cloth');
       if (mesh.border) mesh.border.visible = mesh.shown;
       mesh.object.material.uniforms.coloured.value = coloured ? 1 : 0;
+      mesh.object.material.uniforms.bare.value = field && field.bare ? 1 : 0;
       if (!mesh.shown) continue;
       const { attributes } = mesh.object.geometry;
       if (mesh.codes) {
@@ -137,6 +138,13 @@ class Actor {
     const { mesh, vertex } = marked;
     this.mark.position.set(...mesh.x.slice(3 * vertex, 3 * vertex + 3));
     if (mesh.places) this.mark.position.applyMatrix4(mesh.object.matrix);
+  }
+
+  /// As large from everywhere.
+  sizeMark(camera) {
+    if (!this.mark.visible) return;
+    const far = this.mark.getWorldPosition(new THREE.Vector3()).distanceTo(camera.position);
+    this.mark.scale.setScalar(0.5 * far);
   }
 
   /// What a ray in the scene's axes meets first of what is to be seen: {mesh, vertex}, or null.
@@ -242,6 +250,7 @@ class Stage {
       camera.updateProjectionMatrix();
       camera.updateMatrixWorld();
       this.shared.up.value.set(0, 0, 1).transformDirection(camera.matrixWorldInverse);
+      this.actors[k].sizeMark(camera);
       renderer.render(this.actors[k].scene, camera);
     });
     this.drawn = (this.drawn || 0) + 1;

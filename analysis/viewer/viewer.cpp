@@ -203,8 +203,7 @@ std::string ViewerRun::html() const {
                  {"fields", fields},
                  {"arrows", arrows_.empty() ? Json() : Json::parse(arrows_)}};
   std::string out = element("script", inScript(run.dump()), " type=\"application/json\" class=\"viewer-run\"");
-  for (const std::string& b : blocks_)
-    out += element("script", b, " type=\"text/plain\" class=\"viewer-block\"");
+  for (const std::string& b : blocks_) out += element("script", b, " type=\"text/plain\" class=\"viewer-block\"");
   return out;
 }
 
@@ -221,17 +220,17 @@ std::string viewerSection(std::span<const ViewerRun> runs) {
     for (const float part : {c.r, c.g, c.b}) colors.push_back(static_cast<int>(std::lround(255 * part)));
   const std::string note = element(
       "p",
-      fmt::format("Every recorded frame of the motion. Positions are those of the recording within {:.3f} mm, values within "
-                  "0.2 %. Drag turns, right button or two fingers move, the wheel zooms once the picture was clicked; click "
-                  "the cloth for its value, and a plot for its moment.",
-                  1e3 * error_m),
+      fmt::format(
+          "Every recorded frame of the motion. Positions are those of the recording within {:.3f} mm, values within "
+          "0.2 %. Drag turns, right button or two fingers move, the wheel zooms once the picture was clicked; click "
+          "the cloth for its value, and a plot for its moment.",
+          1e3 * error_m),
       " class=\"caption\"");
-  return element(
-      "section",
-      element("h2", runs.size() > 1 ? "Look around, side by side" : "Look around", " id=\"look\"") +
-          element("div", "", " class=\"viewer\" id=\"viewer\"") + note +
-          element("script", colors.dump(), " type=\"application/json\" id=\"viewer-colors\"") + data,
-      " class=\"look\" id=\"look-around\" aria-labelledby=\"look\" hidden");
+  return element("section",
+                 element("h2", runs.size() > 1 ? "Look around, side by side" : "Look around", " id=\"look\"") +
+                     element("div", "", " class=\"viewer\" id=\"viewer\"") + note +
+                     element("script", colors.dump(), " type=\"application/json\" id=\"viewer-colors\"") + data,
+                 " class=\"look\" id=\"look-around\" aria-labelledby=\"look\" hidden");
 }
 
 std::string viewerStyle() { return std::string(viewer::sources().style); }

@@ -14,8 +14,8 @@
 ///                        rows of rotation and origin, about the frame's origin
 ///   fields               on: cloth or body, over the vertices of its meshes in turn; block as packed.hpp says, of one
 ///                        component; frames: as many as the run has, or one; scale, step: of values (packed.hpp);
-///                        least, most: of all; high: where colours end at first; limits: mesh (-1: any), part (-1: any),
-///                        value, text; bare: 0 is no value
+///                        least, most: of all; high: where colours end at first; limits: mesh (-1: any), part (-1:
+///                        any), value, text; bare: 0 has the plain colour
 ///   arrows               block of float32: of each arrow its tip about the frame's origin [m] and its force [N];
 ///                        counts: of each frame; most_N, longest_m: the longest and how long it is drawn
 
@@ -62,7 +62,8 @@ class ViewerRun {
   /// Of each frame, or a single one, over the vertices of its kind's meshes in turn. Fields without any value other
   /// than 0 are left out.
   void addField(const ViewerField& field, std::span<const std::vector<float>> values);
-  void addArrows(std::span<const std::vector<ViewerArrow>> of_frames, double most_N, double longest_m, const std::string& legend);
+  void addArrows(std::span<const std::vector<ViewerArrow>> of_frames, double most_N, double longest_m,
+                 const std::string& legend);
   /// What is shown first.
   void startAt(double time_s, const std::string& field, const std::string& view);
 

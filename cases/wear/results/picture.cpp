@@ -38,7 +38,8 @@ Vec3 upOf(const Scenario& s) {
 
 /// Arrows end where the body is pushed, so that they stay outside of it; one of `most_N` is `longest_m` long. They
 /// have a legend where there are any, which says what they push `on`.
-void addArrows(Scene& scene, const std::vector<ForceCluster>& clusters, double most_N, double longest_m, const char* on) {
+void addArrows(Scene& scene, const std::vector<ForceCluster>& clusters, double most_N, double longest_m,
+               const char* on) {
   if (!(most_N > 0)) return;
   const double m_per_N = longest_m / most_N;
   const Vec3 towards = axesOf(scene.view, scene.up).towards;
@@ -199,9 +200,9 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
     // Friction falls from 100 % of new cloth: its least is what tells.
     const bool falls = picture.field == PictureField::friction;
     const auto [least, most] = std::minmax_element(scalars.begin(), scalars.end());
-    scene.bar = ColorBar{fmt::format("{}; here {} {}", words.title, falls ? "down to" : "up to",
-                                     formatBrief(falls ? *least : *most, 2)),
-                         0, words.scale * scale.high};
+    scene.bar = ColorBar{
+        fmt::format("{}; here {} {}", words.title, falls ? "down to" : "up to", formatBrief(falls ? *least : *most, 2)),
+        0, words.scale * scale.high};
   }
   for (const WornMesh& worn : wornMeshes(s)) {
     RenderMesh cloth{{}, worn.triangles, {}, worn.color, true, {}};
@@ -213,8 +214,7 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
   }
   const std::array<Vec3, 2> garment = boxOf(x, 0);
   const Vec3 middle = 0.5 * (garment[0] + garment[1]);
-  addArrows(scene, forceClusters(placed, frame, x), scale.most_N, 0.14 * scale.size_m,
-            s.human ? "body" : "obstacle");
+  addArrows(scene, forceClusters(placed, frame, x), scale.most_N, 0.14 * scale.size_m, s.human ? "body" : "obstacle");
   scene.focus = {middle - 0.5 * scale.box_m, middle + 0.5 * scale.box_m};
   scene.title = s.definition.name;
   scene.subtitle = captionOf(picture, frame.time_s, s.definition.comfort.sensor_m);

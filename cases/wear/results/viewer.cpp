@@ -49,7 +49,8 @@ class Maker {
     });
     std::string field = first == pictures.end() ? "stress" : fieldWords(first->field).field;
     if (field.empty()) field = "stress";
-    run_.startAt(m_.peak_time_s, field, first == pictures.end() ? "front_right" : viewNames()[static_cast<std::size_t>(first->view)]);
+    run_.startAt(m_.peak_time_s, field,
+                 first == pictures.end() ? "front_right" : viewNames()[static_cast<std::size_t>(first->view)]);
     return std::move(run_);
   }
 
@@ -192,8 +193,9 @@ class Maker {
       const FieldWords words = fieldWords(r.field);
       if (std::none_of(has.begin(), has.end(), [&](const Field& f) { return f.name == words.field; })) continue;
       Values values;
-      for (const int f : frames_) values.push_back(ofVertices(recording_.sampleField(f, words.field).data, words.scale));
-      ViewerField field{words.field, r.title, r.unit, false, r.field == PictureField::pressure, rangeOf(values), {}};
+      for (const int f : frames_)
+        values.push_back(ofVertices(recording_.sampleField(f, words.field).data, words.scale));
+      ViewerField field{words.field, r.title, r.unit, false, false, rangeOf(values), {}};
       if (r.field == PictureField::strain) field.limits = stretchLimits("");
       if (r.field == PictureField::friction) field.high = 100;
       run_.addField(field, values);
@@ -214,10 +216,12 @@ class Maker {
       const std::array<std::vector<float>, 2> strain = threadStrains(s_, *stress, recording_.frame(f));
       for (std::size_t d = 0; d < 2; ++d) along[d].push_back(ofVertices(strain[d], 100));
     }
-    run_.addField({"strain_weft", "Stretch along the weft", "%", false, false, rangeOf(along[0]), stretchLimits("weft")},
-                  along[0]);
-    run_.addField({"strain_warp", "Stretch along the warp", "%", false, false, rangeOf(along[1]), stretchLimits("warp")},
-                  along[1]);
+    run_.addField(
+        {"strain_weft", "Stretch along the weft", "%", false, false, rangeOf(along[0]), stretchLimits("weft")},
+        along[0]);
+    run_.addField(
+        {"strain_warp", "Stretch along the warp", "%", false, false, rangeOf(along[1]), stretchLimits("warp")},
+        along[1]);
   }
 
   /// From the middle of the cloth to the nearest body, less than 0 inside.
@@ -230,12 +234,13 @@ class Maker {
       std::vector<float> gap(x.size());
       forAll(Each::much, static_cast<int>(x.size()), [&](int i) {
         const PlacedBodies::Nearest near = placed.nearest(x[static_cast<std::size_t>(i)]);
-        gap[static_cast<std::size_t>(i)] = near.body < 0 ? std::numeric_limits<float>::quiet_NaN()
-                                                         : static_cast<float>(near.distance_m);
+        gap[static_cast<std::size_t>(i)] =
+            near.body < 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(near.distance_m);
       });
       values.push_back(ofVertices(gap, 1e3));
     }
-    run_.addField({"gap", "Gap to the body, from the middle of the cloth", "mm", false, false, kGapShown_mm, {}}, values);
+    run_.addField({"gap", "Gap to the body, from the middle of the cloth", "mm", false, false, kGapShown_mm, {}},
+                  values);
   }
 
   void addBodyPressure() {

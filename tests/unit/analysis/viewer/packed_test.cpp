@@ -31,8 +31,8 @@ struct Sheet {
       for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) {
           const double u = 0.02 * i, v = 0.02 * j;
-          for (const double c :
-               {speed_m_per_s * t + 0.05 * std::sin(9 * v + 7 * t), u + 0.01 * std::sin(5 * t), v + 0.02 * std::cos(8 * u + 3 * t)})
+          for (const double c : {speed_m_per_s * t + 0.05 * std::sin(9 * v + 7 * t), u + 0.01 * std::sin(5 * t),
+                                 v + 0.02 * std::cos(8 * u + 3 * t)})
             x.push_back(static_cast<float>(c));
         }
     }
@@ -54,7 +54,8 @@ TEST(Packed, CodesComeBackWhateverTheyAre) {
   const std::vector<int> parents = parentsOf(vertices, sheet.triangles);
   for (const std::size_t components : {1u, 3u}) {
     Codes codes{5, vertices, components, {}};
-    for (std::size_t i = 0; i < 5 * vertices * components; ++i) codes.of.push_back(static_cast<std::int16_t>(any(random)));
+    for (std::size_t i = 0; i < 5 * vertices * components; ++i)
+      codes.of.push_back(static_cast<std::int16_t>(any(random)));
     EXPECT_EQ(viewed::unpacked(packed(codes, parents), 5, vertices, components, parents), asInts(codes.of));
   }
 }
@@ -77,7 +78,7 @@ TEST(Packed, PositionsWithinTheStatedError) {
     }
   EXPECT_NEAR(worst_m, p.error_m, 1e-12);  // what a page states is what its reader gets
   EXPECT_LE(worst_m, std::sqrt(3) / 2 * 1e-4);
-  EXPECT_LT(worst_m, 1e-4);       // issue 23, P1
+  EXPECT_LT(worst_m, 1e-4);        // issue 23, P1
   EXPECT_GT(worst_m, 0.5 * 1e-4);  // of 48,000 vertices some are near a corner of their cube
 }
 

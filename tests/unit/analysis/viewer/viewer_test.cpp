@@ -16,8 +16,12 @@ using viewed::PageRun;
 /// Two triangles of cloth that move, and one triangle of a body that turns as a whole.
 ViewerRun smallRun() {
   ViewerRun run("Small </script> \"run\"", "", {0, 0.02}, {{0, 0, 0}, {0.5, 0, 0}}, {0, 0, 1});
-  const MovingMesh cloth{"vest", {{0, 1, 2}, {2, 1, 3}}, {{0, 0, 1, 0.1f, 0, 1, 0, 0.1f, 1, 0.1f, 0.1f, 1},
-                                                         {0.5f, 0, 1, 0.6f, 0, 1, 0.5f, 0.1f, 1, 0.6f, 0.1f, 1.01f}}, {}, {}};
+  const MovingMesh cloth{
+      "vest",
+      {{0, 1, 2}, {2, 1, 3}},
+      {{0, 0, 1, 0.1f, 0, 1, 0, 0.1f, 1, 0.1f, 0.1f, 1}, {0.5f, 0, 1, 0.6f, 0, 1, 0.5f, 0.1f, 1, 0.6f, 0.1f, 1.01f}},
+      {},
+      {}};
   run.addMoving(ViewerRun::Kind::cloth, cloth, {"front", "back"}, {0, 0, 1, 1});
   FixedMesh body{"thigh", 0, {}};
   body.mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}};
@@ -67,8 +71,10 @@ TEST(Viewer, FieldsComeBackWithinTheirError) {
   ViewerRun run = smallRun();
   const std::vector<std::vector<float>> values{{100, 0, -3, 250}, {110, 1, -2, 240}};
   run.addField({"stress", "Stress", "N/m", false, false, 200, {{0, -1, 230, "limit of the vest"}}}, values);
-  run.addField({"body_pressure", "Pressure", "kPa", true, true, 0, {}}, std::vector<std::vector<float>>{{0, 1, 2}, {0, 2, 4}});
-  run.addField({"set", "nothing", "1/m", false, false, 0, {}}, std::vector<std::vector<float>>{{0, 0, 0, 0}, {0, 0, 0, 0}});
+  run.addField({"body_pressure", "Pressure", "kPa", true, true, 0, {}},
+               std::vector<std::vector<float>>{{0, 1, 2}, {0, 2, 4}});
+  run.addField({"set", "nothing", "1/m", false, false, 0, {}},
+               std::vector<std::vector<float>>{{0, 0, 0, 0}, {0, 0, 0, 0}});
   const PageRun page(run.html());
   ASSERT_EQ(page.head["fields"].size(), 2u);  // one without values is left out
   const auto& field = page.head["fields"][0];
@@ -87,7 +93,8 @@ TEST(Viewer, FieldsComeBackWithinTheirError) {
 
 TEST(Viewer, WhatDoesNotFitIsOurMistake) {
   ViewerRun run = smallRun();
-  const std::vector<std::vector<float>> short_frame{{1, 2, 3}, {1, 2, 3}}, odd_times{{1, 2, 3, 4}, {1, 2, 3, 4}, {1, 2, 3, 4}};
+  const std::vector<std::vector<float>> short_frame{{1, 2, 3}, {1, 2, 3}},
+      odd_times{{1, 2, 3, 4}, {1, 2, 3, 4}, {1, 2, 3, 4}};
   EXPECT_THROW(run.addField({"stress", "", "", false, false, 0, {}}, short_frame), std::logic_error);
   EXPECT_THROW(run.addField({"stress", "", "", false, false, 0, {}}, odd_times), std::logic_error);
   EXPECT_THROW(ViewerRun("", "", {0, 1}, {{}}, {0, 0, 1}), std::logic_error);
@@ -102,12 +109,14 @@ TEST(Viewer, ThePageIsWhole) {
   EXPECT_EQ(bare.find("three.js"), std::string::npos);
   in.viewer.push_back(smallRun());
   const std::string page = formatReport(in);
-  EXPECT_NE(page.find("<section class=\"look\" id=\"look-around\" aria-labelledby=\"look\" hidden>"), std::string::npos);
+  EXPECT_NE(page.find("<section class=\"look\" id=\"look-around\" aria-labelledby=\"look\" hidden>"),
+            std::string::npos);
   EXPECT_NE(page.find("Permission is hereby granted, free of charge"), std::string::npos);
   EXPECT_NE(page.find("three.js authors"), std::string::npos);
-  for (const char* asks : {"http://", "https://", "import(", "<link"}) EXPECT_EQ(page.find(asks), std::string::npos) << asks;
+  for (const char* asks : {"http://", "https://", "import(", "<link"})
+    EXPECT_EQ(page.find(asks), std::string::npos) << asks;
   EXPECT_EQ(page.find("Small </script>"), std::string::npos);  // it would end the script that names it
-  EXPECT_LT(page.size(), 600000u);  // three.js takes 0.3 MB of it
+  EXPECT_LT(page.size(), 600000u);                             // three.js takes 0.3 MB of it
 }
 
 }  // namespace
