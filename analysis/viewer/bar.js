@@ -52,7 +52,7 @@ class Bar {
     this.field = field;
     this.limits = limits;
     // The bar reaches past its first colours by half as much; a single spot far above would leave it no room.
-    this.from = Math.min(0, Math.max(field.least, -field.high), low);
+    this.from = Math.min(0, Math.max(field.least, -0.25 * field.high), low);
     this.to = Math.max(high, Math.min(field.most, 2 * field.high), 1e-12);
     const least = limits.length ? Math.min(...limits.map(l => l.value)) : Infinity;
     if (least < 2.5 * this.to) this.to = Math.max(this.to, 1.15 * least);
@@ -81,8 +81,10 @@ class Bar {
     const within = first && first.value < to;
     this.beyond.style.display = within ? '' : 'none';
     if (within) this.beyond.style.left = `${share(first.value)}%`;
-    const said = sorted.slice(0, 2).map(l => `${l.text} ${rounded(l.value)} ${field.unit}`).join(', ');
-    this.words.textContent = first ? `${within ? 'Hatched: beyond the ' : 'Beyond this bar: '}${said}${sorted.length > 2 ? ', …' : ''}` : '';
+    if (!first) { this.words.textContent = ''; return; }
+    const same = sorted.filter(l => l.value === first.value).length - 1, next = sorted.find(l => l.value > first.value);
+    this.words.textContent = `${within ? 'Hatched: beyond the ' : 'Beyond this bar: '}${first.text}, ${rounded(first.value)} ${field.unit}` +
+      (same > 0 ? ` (and ${same} alike)` : '') + (next ? `; next, ${next.text}, ${rounded(next.value)} ${field.unit}` : '');
   }
 }
 

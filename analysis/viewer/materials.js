@@ -62,9 +62,9 @@ const surfaceMaterial = (color, back_m, shared) => new THREE.RawShaderMaterial({
   uniforms: { ...shared, plain: { value: new THREE.Vector3(...color) }, back_m: { value: back_m }, coloured: { value: 0 }, bare: { value: 0 } },
 });
 
-/// One colour with its opacity (premultiplied by the browser's rule of canvases).
-const plainMaterial = (r, g, b, a = 1) => new THREE.RawShaderMaterial({
-  vertexShader: kPlainVertex, fragmentShader: kPlainFragment, transparent: a < 1, uniforms: { color: { value: new THREE.Vector4(r, g, b, a) } },
+/// One colour with its opacity; `over_all`: in front of everything.
+const plainMaterial = (r, g, b, a = 1, over_all = false) => new THREE.RawShaderMaterial({
+  vertexShader: kPlainVertex, fragmentShader: kPlainFragment, transparent: a < 1 || over_all, depthTest: !over_all, uniforms: { color: { value: new THREE.Vector4(r, g, b, a) } },
 });
 
 const colorTexture = colors => {

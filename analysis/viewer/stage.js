@@ -48,8 +48,9 @@ class Actor {
     }
     this.ground = new Ground();
     this.scene.add(this.ground.object);
-    this.mark = new THREE.Mesh(new THREE.SphereBufferGeometry(0.006, 16, 12), plainMaterial(0.106, 0.122, 0.153));
+    this.mark = new THREE.Mesh(new THREE.SphereBufferGeometry(0.006, 16, 12), plainMaterial(0.106, 0.122, 0.153, 1, true));
     this.mark.visible = false;
+    this.mark.renderOrder = 9;
     this.root.add(this.mark);
     this.height = this.lowest();
     this.ground.object.position.z = this.height - 0.002;

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The viewer of a report's page, in a browser without a window: it starts from the disk without an error of the console and without a
 request, draws with WebGL, and what clicks find is what was recorded, within 1 % (issue 23, P1). Skipped where there is no Chromium.
-`--page RESULTS` looks at results that are there, in place of a run of its own."""
+`--page RESULTS` and `--study FOLDER` look at results that are there, in place of runs of its own."""
 
 import json
 import math
@@ -190,6 +190,51 @@ def check_page(results, tool, page_file):
           f"{compared} values and a click ({stress:.1f} N/m) are those recorded")
 
 
+def check_study(folder, tool, page_file):
+    """Variants beside each other, at one time and in one range of colours; a click on one finds what that one recorded."""
+    variants = [f.parent for f in sorted(folder.glob("*/frames")) if f.is_dir()]
+    with browser.Browser(browser.find()) as page:
+        page.open(page_file)
+        check(page.evaluate("gambesonViewer.then(v => !!v)"), "the page of the study has no viewer")
+        runs = look(page, "return v.runs.map(r => r.head.label);")
+        check(len(runs) == len(variants), f"{len(variants)} variants, in the viewer {runs}")
+        pixels(page)
+        for k in range(len(runs)):
+            found = look(page, f"""
+                await v.setField('stress'); v.setLayer('forces', false); v.setTime(v.clock[v.clock.length - 1]); v.setView('front');
+                v.canvas.scrollIntoView({{block: 'center'}});
+                await new Promise(done => setTimeout(done, 600));
+                const [x, y, w, h] = v.stage.places()[{k}], box = v.canvas.getBoundingClientRect();
+                return {{ at: [box.x + x + w / 2, box.y + v.canvas.clientHeight - y - h / 2], time: v.runs[{k}].times.at(-1) }};""")
+            page.click(*found["at"])
+            clicked = look(page, "return v.found();")
+            check(clicked and clicked["run"] == k and clicked["kind"] == "cloth", f"a click on {runs[k]} found {clicked}")
+            check(abs(clicked["time_s"] - found["time"]) < 1e-9, "the variants are not at one time")
+            # Of all variants only this one has a sample there with that stress.
+            right = []
+            for variant in variants:
+                recorded = Recorded(tool, variant)
+                positions, stress = recorded.rows("positions", clicked["time_s"]), recorded.rows("stress", clicked["time_s"])
+                sample, off_m = nearest_sample(positions, clicked["position_m"])
+                if off_m < 1e-4 and near(clicked["value"], stress[sample][0], max(r[0] for r in stress)):
+                    right.append(variant.name)
+            check(len(right) == 1, f"what {runs[k]} shows was recorded by {right}")
+        check(not page.errors(), f"the console was told: {page.errors()[:3]}")
+        check(not page.requests(), f"the page asked for {page.requests()[:3]}")
+    print(f"study of {page_file.stat().st_size / 1e6:.1f} MB: {', '.join(runs)}")
+
+
+def study_of(case, folder):
+    file = folder / "two.study.json"
+    file.write_text(json.dumps({"name": "Two thicknesses", "case": str(case),
+                                "axes": [{"name": "thickness", "path": "factors.thickness", "values": [0.5, 1]}],
+                                "baseline": {"thickness": "1"}}))
+    out = folder / "study"
+    done = run("study", file, "--out", out)
+    check(done.returncode == 0, f"the study gave {done.returncode}: {done.stderr}")
+    return out
+
+
 def stills_without_webgl(page_file):
     with browser.Browser(browser.find()) as page:
         page.call("Page.addScriptToEvaluateOnNewDocument", source="HTMLCanvasElement.prototype.getContext = () => null;")
@@ -206,6 +251,9 @@ def main():
         print("chromium is not installed")
         sys.exit(SKIPPED)
     tool = sys.argv[2] if len(sys.argv) > 2 else str(pathlib.Path(sys.argv[1]).parent / "recorded_values")
+    if "--study" in sys.argv:
+        folder = pathlib.Path(sys.argv[sys.argv.index("--study") + 1])
+        return check_study(folder, tool, folder / "report.html")
     if "--page" in sys.argv:
         results = pathlib.Path(sys.argv[sys.argv.index("--page") + 1])
         return check_page(results, tool, results / "report.html")
@@ -215,6 +263,8 @@ def main():
         page_file = out / "report.html"
         check_page(out, tool, page_file)
         stills_without_webgl(page_file)
+        study = study_of(HERE / "shorts.json", folder)
+        check_study(study, tool, study / "report.html")
         # The same page again, and one without a viewer.
         again = folder / "again.html"
         check(run("report", out, "-o", again).returncode == 0, "report failed")
