@@ -1,6 +1,6 @@
 // Contact forces as arrows that end where they push.
 
-const kSides = 7, kRadius_m = 0.0035, kHead_m = 0.026;
+const kSides = 7, kShaft = 0.02, kHead = 0.15;  // of the longest arrow
 
 class Arrows {
   constructor(arrows, shared) {
@@ -26,13 +26,13 @@ class Arrows {
 
   /// `m_per_N`: common to all runs of the page.
   show(frame, m_per_N) {
-    const { data, begin } = this.arrows, P = this.points;
+    const { data, begin, longest_m } = this.arrows, P = this.points, shaft_m = kShaft * longest_m;
     const count = begin[frame + 1] - begin[frame];
     const d = new THREE.Vector3(), u = new THREE.Vector3(), w = new THREE.Vector3();
     for (let a = 0; a < count; ++a) {
       const i = 6 * (begin[frame] + a);
       d.set(data[i + 3], data[i + 4], data[i + 5]);
-      const length = d.length() * m_per_N, head = Math.min(kHead_m, 0.6 * length);
+      const length = d.length() * m_per_N, head = Math.min(kHead * longest_m, 0.6 * length);
       d.normalize();
       u.set(Math.abs(d.x) < 0.6 ? 1 : 0, Math.abs(d.x) < 0.6 ? 0 : 1, 0).cross(d).normalize();
       w.crossVectors(d, u);
@@ -45,8 +45,8 @@ class Arrows {
       };
       for (let k = 0; k < kSides; ++k) {
         const cos = Math.cos(2 * Math.PI * k / kSides), sin = Math.sin(2 * Math.PI * k / kSides);
-        put(a * P + k, length, kRadius_m, cos, sin);
-        put(a * P + kSides + k, head, kRadius_m, cos, sin);
+        put(a * P + k, length, shaft_m, cos, sin);
+        put(a * P + kSides + k, head, shaft_m, cos, sin);
         put(a * P + 2 * kSides + k, head, 0.36 * head, cos, sin);
       }
       put(a * P + 3 * kSides, 0, 0, 0, 0);

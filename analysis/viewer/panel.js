@@ -287,7 +287,7 @@ class Viewer {
       }));
     }
     const arrows = this.runs.map(run => run.arrows).find(a => a);
-    this.scale.textContent = arrows ? `Arrows: force on the body from ${arrows.legend}, the longest ${rounded(Math.max(...this.runs.map(r => r.arrows ? r.arrows.most_N : 0)))} N` : '';
+    this.scale.textContent = arrows ? `Arrows: contact force of ${arrows.legend} on what it touches, the longest ${rounded(Math.max(...this.runs.map(r => r.arrows ? r.arrows.most_N : 0)))} N` : '';
   }
 }
 
