@@ -25,9 +25,9 @@ constexpr double kLongestArrow = 0.14;
 /// Gaps beyond are of no interest to colours, which end there at first.
 constexpr double kGapShown_mm = 20;
 
-class Maker {
+class ViewMaker {
  public:
-  Maker(const Scenario& s, const RecordingReader& recording, const Measured& m, const std::string& label,
+  ViewMaker(const Scenario& s, const RecordingReader& recording, const Measured& m, const std::string& label,
         ViewerContent content)
       : s_(s),
         recording_(recording),
@@ -306,7 +306,7 @@ class Maker {
 
 ViewerRun viewerRun(const Scenario& s, const RecordingReader& recording, const Measured& m, const std::string& label,
                     ViewerContent content) {
-  return Maker(s, recording, m, label, content).make();
+  return ViewMaker(s, recording, m, label, content).make();
 }
 
 void addViewer(const Scenario& s, const RecordingReader& recording, const Measured& m, ReportInput& in) {
