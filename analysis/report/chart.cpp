@@ -112,7 +112,8 @@ std::string peakMark(const Series& s, std::size_t i, const Frame& f, const std::
   // Where the middle of it would run over an end of the axis, it stands beside that end.
   const double half = std::min(4.4 * static_cast<double>(label.size()), 0.5 * (kWidth - kRight - kLeft));
   const double at = std::clamp(x, kLeft + half, kWidth - kRight - half);
-  return fmt::format("<circle class=\"peak {}\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"5\"/>", nameOf(s.tone), x, y) +
+  return fmt::format("<circle class=\"peak {}\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"5\" data-time=\"{:.9g}\"/>",
+                     nameOf(s.tone), x, y, s.time_s[i]) +
          text(at, s.values[i] >= 0 ? y - 11 : y + 22, label, "middle", " class=\"peak-label\"");
 }
 
@@ -206,7 +207,8 @@ std::string lineChart(const Plot& plot) {
   double above = 0;
   const std::string key = legend(shown, above);
   std::string svg = fmt::format(
-      "<svg viewBox=\"0 {:g} {} {:g}\" role=\"img\" aria-label=\"{}\" data-frame=\"{} {} {} {} {:.9g} {:.9g} {:.9g} "
+      "<svg viewBox=\"0 {:g} {} {:g}\" role=\"img\" aria-label=\"{}\" data-time=\"s\" data-frame=\"{} {} {} {} {:.9g} "
+      "{:.9g} {:.9g} "
       "{:.9g}\" data-unit=\"{}\">",
       -above, kWidth, kHeight + above, escape(plot.title + " over time. Largest magnitude: " + peak + "."), kLeft,
       kWidth - kRight, kHeight - kBottom, kTop, f.t.low, f.t.high, f.v.low, f.v.high, escape(shown[0]->unit));

@@ -233,14 +233,14 @@ std::string pageSectionOf(const std::string& id, const std::string& title, const
 }
 
 std::string pageOf(const std::string& title, const std::string& description, const std::string& summary,
-                   const std::string& body) {
+                   const std::string& body, bool viewed) {
   const std::string head =
       std::string(
           "<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
           "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
           "'unsafe-inline'; script-src 'unsafe-inline'\">\n") +
       "<meta name=\"description\" content=\"" + escape(summary) + "\">\n" + element("title", escape(title)) +
-      element("style", report::kStyle);
+      element("style", report::kStyle) + (viewed ? element("style", viewerStyle()) : "");
   return "<!DOCTYPE html>\n" +
          element(
              "html",
@@ -250,7 +250,7 @@ std::string pageOf(const std::string& title, const std::string& description, con
                                  " class=\"page\"") +
                              element("main", body + element("footer",
                                                             "Made by Gambeson. This page holds everything it shows.")) +
-                             element("script", report::kScript)),
+                             element("script", report::kScript) + (viewed ? viewerScripts() : "")),
              " lang=\"en\"");
 }
 
@@ -332,7 +332,7 @@ std::string headlineOf(const ReportInput& input) {
 }
 
 std::string formatReport(const ReportInput& in) {
-  std::string body = alarms(in) + headline(in) + notesOf(in.notes) + foundText(in.found);
+  std::string body = alarms(in) + headline(in) + notesOf(in.notes) + foundText(in.found) + viewerSection(in.viewer);
   if (!in.joints.empty() || in.outcome.empty())
     body +=
         pageSectionOf("joints", "What each joint pays",
@@ -384,7 +384,7 @@ std::string formatReport(const ReportInput& in) {
                           charts((in.facts.empty() ? "" : tableOf(facts)) + each(in.fact_tables, tableOf) +
                                  each(in.fact_plots, lineChart)));
   }
-  return pageOf(in.title, in.description, headlineOf(in), body);
+  return pageOf(in.title, in.description, headlineOf(in), body, !in.viewer.empty());
 }
 
 void writeReport(const ReportInput& input, const std::filesystem::path& html) {

@@ -1,6 +1,6 @@
 #pragma once
 /// One self-contained page about one run: what the garment costs its wearer, first in a sentence, then in numbers,
-/// plots and pictures, then why to trust it. The page asks the network for nothing and needs no script.
+/// plots and pictures, then why to trust it. The page asks the network for nothing and is whole without its scripts.
 ///
 /// Comparing several runs is a page of its own that takes a list of these inputs; nothing here assumes that there is
 /// one.
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "analysis/trust.hpp"
+#include "analysis/viewer/viewer.hpp"
 
 namespace gambeson {
 
@@ -112,9 +113,9 @@ struct ReportInput {
   std::vector<std::string> warnings;  ///< shown at the top: "The run stopped at 1.2 s: ..."
   bool played = true;  ///< what the run is to judge was played; else no light is green, and a warning says why
   std::string no_share = "this task has no reference moment";  ///< why a share of the natural moment is not known
-  std::vector<std::string> notes;  ///< in a milder tone, with the headline: what bears on it
-  std::vector<std::string> found;  ///< folded below the headline: what was found and made on the way; those with the
-                                   ///< same words before their first colon stand under these
+  std::vector<std::string> notes;    ///< in a milder tone, with the headline: what bears on it
+  std::vector<std::string> found;    ///< folded below the headline: what was found and made on the way; those with the
+                                     ///< same words before their first colon stand under these
   std::vector<JointSummary> joints;  ///< the headline is the largest |peak|
   std::string outcome;               ///< the headline of a run without joints, one or two sentences
   std::vector<Plot> torques;
@@ -127,6 +128,7 @@ struct ReportInput {
   std::vector<Plot> collision_plots;  ///< what met what, window by window
   std::vector<Table> collision_tables;
   std::vector<Picture> pictures;  ///< the first stands beside the headline
+  std::vector<ViewerRun> viewer;  ///< one run to look around in, or none
   std::vector<AuditCheck> audit;
   std::vector<Stretch> stretch;  ///< of the fabrics, against what they are meant for
   std::vector<std::string> assumptions;

@@ -375,8 +375,9 @@ void compareVariants(const Study& s, std::vector<Outcome>& outcomes, const std::
   const Comparison c = compare(s, std::move(runs));
   std::vector<std::string> failures;
   const std::vector<SidePicture> pictures = takeSidePictures(s, c, out, failures);
+  const std::vector<ViewerRun> views = takeViews(s, c, out, failures);
   writeStudyTables(s, c, out);
-  writeOwnFile(out / files::report, studyPage(s, c, pictures, failures));
+  writeOwnFile(out / files::report, studyPage(s, c, pictures, failures, views));
 }
 
 }  // namespace gambeson::study

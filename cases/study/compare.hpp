@@ -8,6 +8,7 @@
 
 #include "analysis/series.hpp"
 #include "analysis/verdict.hpp"
+#include "analysis/viewer/viewer.hpp"
 #include "cases/study/numbers.hpp"
 #include "cases/study/run.hpp"
 
@@ -96,8 +97,11 @@ struct SidePicture {
 };
 std::vector<SidePicture> takeSidePictures(const Study& study, const Comparison& c, const std::filesystem::path& out,
                                           std::vector<std::string>& failures);
+/// Up to four variants of the motion that decides, to look at side by side; none where there are not two.
+std::vector<ViewerRun> takeViews(const Study& study, const Comparison& c, const std::filesystem::path& out,
+                                 std::vector<std::string>& failures);
 std::string studyPage(const Study& study, const Comparison& c, const std::vector<SidePicture>& pictures,
-                      const std::vector<std::string>& failures);
+                      const std::vector<std::string>& failures, const std::vector<ViewerRun>& views = {});
 /// What a case leaves out: "cloth does not touch cloth", "no air drag".
 std::vector<std::string> switchedOff(const Case& c);
 

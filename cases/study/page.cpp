@@ -271,13 +271,14 @@ std::string pairs(const Study& s, const std::vector<SidePicture>& pictures) {
 }  // namespace
 
 std::string studyPage(const Study& s, const Comparison& c, const std::vector<SidePicture>& pictures,
-                      const std::vector<std::string>& failures) {
+                      const std::vector<std::string>& failures, const std::vector<ViewerRun>& views) {
   const bool batch = s.file.empty();
   std::string body = alarms(s, c, failures);
   const auto pageSection = [&](const char* id, const char* title, const std::string& lead, const std::string& what) {
     if (!what.empty()) body += pageSectionOf(id, title, lead, what);
   };
   if (!batch) body += headline(s, c, pictures);
+  body += viewerSection(views);
   const bool joints = std::any_of(c.runs.begin(), c.runs.end(), [](const RunNumbers& r) { return r.highest(); });
   const std::string shares = anyNatural(c) ? ": in per cent of the joint\u2019s natural moment, in Nm," : " in Nm,";
   pageSection(
@@ -306,7 +307,7 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
         pairs(s, pictures));
   pageSection("checks", "Checks", "Every run checks itself, step by step.", checksOf(s, c));
   pageSection("assumptions", "What was left out and assumed", "", leftOutOf(s, c));
-  return pageOf(s.name, s.description, batch ? s.name : c.verdict.sentence, body);
+  return pageOf(s.name, s.description, batch ? s.name : c.verdict.sentence, body, !views.empty());
 }
 
 }  // namespace gambeson::study

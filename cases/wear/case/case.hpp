@@ -283,6 +283,7 @@ struct OutputCase {
   double frame_s = 0.02;      ///< a multiple of window_s
   double checkpoint_s = 0.1;  ///< a multiple of frame_s
   std::vector<PictureCase> pictures;
+  bool viewer = true;  ///< the page has one
 };
 
 enum class Counting { distal_segment, all_distal };

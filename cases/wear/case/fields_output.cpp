@@ -25,6 +25,9 @@ Object outputTable() {
       .number("checkpoint", &O::checkpoint_s, "s", between(1e-5, 100),
               "time between points from which an interrupted run resumes; a multiple of frame")
       .list("pictures", &O::pictures, pictureTable(), "pictures to take")
+      .flag("viewer", &O::viewer,
+            "the page has a view to look around in: the motion in three dimensions (some 5 to 30 MB)")
+      .unwritten()
       .check([](const Entry& p, const O& o) {
         const auto typed = [&](const char* key, double s) { return inUnitOf(p, key, s, "s"); };
         if (!isMultiple(o.frame_s, o.window_s))

@@ -17,24 +17,6 @@ namespace {
 
 constexpr double rounding = 1e-9;
 
-/// Of the frames that are shown `most` at most, evenly.
-std::vector<int> framesOf(const RecordingReader& recording, int most) {
-  std::vector<int> all;
-  for (const bool motion : {true, false}) {
-    for (int k = 0; k < recording.frameCount(); ++k)
-      if (!motion || recording.time(k) > -rounding) all.push_back(k);
-    if (!all.empty()) break;
-  }
-  if (all.empty()) throw RunError("the recording has no frames");
-  const std::size_t count = all.size();
-  if (most <= 0 || count <= static_cast<std::size_t>(most)) return all;
-  if (most == 1) return {all.back()};
-  const auto steps = static_cast<std::size_t>(most) - 1;
-  std::vector<int> some;
-  for (std::size_t k = 0; k <= steps; ++k) some.push_back(all[(k * (count - 1) + steps / 2) / steps]);
-  return some;
-}
-
 Placement inFrame(const Pose& X_WF, const Placement& X_W) {
   return {transpose(X_WF.rotation) * X_W.rotation, transposeTimes(X_WF.rotation, X_W.origin - X_WF.origin), X_W.scale};
 }
@@ -84,7 +66,7 @@ std::vector<float> floatsOf(std::span<const Vec3> x) {
 class Maker {
  public:
   Maker(const Scenario& s, const RecordingReader& recording, const AnimationOptions& o)
-      : s_(s), recording_(recording), o_(o), frames_(framesOf(recording, o.frames)) {
+      : s_(s), recording_(recording), o_(o), frames_(shownFrames(recording, o.frames)) {
     AnimatedScene& scene = out_.scene;
     scene.title = s.definition.name;
     for (const int f : frames_) scene.time_s.push_back(recording.time(f));
@@ -216,7 +198,24 @@ class Maker {
 
 }  // namespace
 
-std::size_t animatedFrames(const RecordingReader& recording) { return framesOf(recording, 0).size(); }
+std::vector<int> shownFrames(const RecordingReader& recording, int most) {
+  std::vector<int> all;
+  for (const bool motion : {true, false}) {
+    for (int k = 0; k < recording.frameCount(); ++k)
+      if (!motion || recording.time(k) > -rounding) all.push_back(k);
+    if (!all.empty()) break;
+  }
+  if (all.empty()) throw RunError("the recording has no frames");
+  const std::size_t count = all.size();
+  if (most <= 0 || count <= static_cast<std::size_t>(most)) return all;
+  if (most == 1) return {all.back()};
+  const auto steps = static_cast<std::size_t>(most) - 1;
+  std::vector<int> some;
+  for (std::size_t k = 0; k <= steps; ++k) some.push_back(all[(k * (count - 1) + steps / 2) / steps]);
+  return some;
+}
+
+std::size_t animatedFrames(const RecordingReader& recording) { return shownFrames(recording, 0).size(); }
 
 Animation animationOf(const Scenario& s, const RecordingReader& recording, const AnimationOptions& o) {
   return Maker(s, recording, o).make();

@@ -24,6 +24,10 @@ struct Animation {
   double skin_error_m = 0;
 };
 
+/// Of the recording those that are shown, `most` at most (0: all), evenly, the first and the last among them. Throws
+/// RunError where there is none.
+std::vector<int> shownFrames(const RecordingReader& recording, int most);
+
 /// How many frames the animation of a recording has where all are shown.
 std::size_t animatedFrames(const RecordingReader& recording);
 

@@ -197,6 +197,12 @@ std::vector<double> BodyMap::pressure(const Frame& frame) const {
   return pressure;
 }
 
+std::vector<BodyMap::Surface> BodyMap::surfaces() const {
+  std::vector<Surface> out;
+  for (const Part& part : parts_) out.push_back({part.obstacle, part.first, &part.mesh});
+  return out;
+}
+
 std::vector<TriangleMesh> BodyMap::meshes(double time_s) const {
   PlacedBodies placed(scenario_);
   placed.moveTo(time_s);

@@ -27,6 +27,13 @@ class BodyMap {
   /// Of each vertex, in the frame's window [Pa].
   std::vector<double> pressure(const Frame& frame) const;
 
+  /// Its surfaces as they are at rest: a mesh for each shape, in the shape's frame, or the skin.
+  struct Surface {
+    int obstacle = 0, first = 0;  ///< first of its vertices, of all
+    const TriangleMesh* mesh = nullptr;
+  };
+  std::vector<Surface> surfaces() const;
+
   /// The body's surfaces at a time: one per shape, or the skin; the vertices of all of them are numbered through.
   std::vector<TriangleMesh> meshes(double time_s) const;
 

@@ -38,21 +38,12 @@ Stretch largestOf(const Scenario& s, const std::vector<StressSummary>& patches, 
 /// Strain along the weft, then the warp, of each patch over the frames of the motion.
 std::array<std::vector<StressSummary>, 2> directedStrains(const Scenario& s, const RecordingReader& recording,
                                                           const Regions& regions) {
-  const Surface& surface = s.model->surface;
   const std::unique_ptr<StressView> field = s.model->cloth->stress();
   std::array<std::vector<StressFrame>, 2> frames;
   for (int k = 0; k < recording.frameCount(); ++k) {
     if (!(recording.time(k) > 1e-9)) continue;
     const Frame frame = recording.frame(k);
-    const std::vector<Vec3> q = controlsOf(frame);
-    const std::vector<StressView::Sample> means = field->means(q);
-    std::array<std::vector<float>, 2> strain;
-    for (auto& direction : strain) direction.resize(static_cast<std::size_t>(surface.size()));
-    forAll(Each::much, surface.size(), [&](int i) {
-      const PlaneTensor E = field->strainAt(q, surface.patch[i], surface.parameters[i], means);
-      strain[0][static_cast<std::size_t>(i)] = static_cast<float>(E.t11);
-      strain[1][static_cast<std::size_t>(i)] = static_cast<float>(E.t22);
-    });
+    const std::array<std::vector<float>, 2> strain = threadStrains(s, *field, frame);
     for (std::size_t d = 0; d < 2; ++d) frames[d].push_back({frame.time_s, strain[d], strain[d]});
   }
   return {summarizeStress(regions, frames[0]), summarizeStress(regions, frames[1])};
@@ -68,6 +59,20 @@ std::optional<double> limitOf(const Case& c, const GarmentCase& g, std::optional
 }
 
 }  // namespace
+
+std::array<std::vector<float>, 2> threadStrains(const Scenario& s, const StressView& field, const Frame& frame) {
+  const Surface& surface = s.model->surface;
+  const std::vector<Vec3> q = controlsOf(frame);
+  const std::vector<StressView::Sample> means = field.means(q);
+  std::array<std::vector<float>, 2> strain;
+  for (auto& direction : strain) direction.resize(static_cast<std::size_t>(surface.size()));
+  forAll(Each::much, surface.size(), [&](int i) {
+    const PlaneTensor E = field.strainAt(q, surface.patch[i], surface.parameters[i], means);
+    strain[0][static_cast<std::size_t>(i)] = static_cast<float>(E.t11);
+    strain[1][static_cast<std::size_t>(i)] = static_cast<float>(E.t22);
+  });
+  return strain;
+}
 
 void measureStretch(const Scenario& s, const RecordingReader& recording, Measured& out) {
   if (out.stress.empty()) return;

@@ -365,6 +365,8 @@ void measureComfort(const Scenario& scenario, const RecordingReader& recording, 
 void measureZones(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 /// Of cloth.cpp: costs seconds; after the joints.
 void measureCloth(const Scenario& scenario, const RecordingReader& recording, Measured& out);
+/// Green-Lagrange strain along the weft, then the warp, at each sample of a frame.
+std::array<std::vector<float>, 2> threadStrains(const Scenario& scenario, const StressView& field, const Frame& frame);
 /// Of fit.cpp: cost seconds; after the frames.
 void measureStretch(const Scenario& scenario, const RecordingReader& recording, Measured& out);
 void measureFalls(const Scenario& scenario, const RecordingReader& recording, Measured& out);

@@ -6,12 +6,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "analysis/render/camera.hpp"
 #include "analysis/render/shapes.hpp"
 #include "analysis/ticks.hpp"
 #include "cases/wear/results/body_map.hpp"
+#include "cases/wear/results/force_clusters.hpp"
 #include "cases/wear/results/shown.hpp"
 #include "cases/wear/results/write.hpp"
 #include "cases/wear/scene/placed_bodies.hpp"
@@ -21,10 +21,6 @@ namespace gambeson {
 namespace {
 
 constexpr Color arrow_color{0.80f, 0.08f, 0.10f};
-/// Arrows sum the forces of samples within cells of this size, so that they can be told apart.
-constexpr double arrow_cell_m = 0.05;
-/// Arrows shorter than this part of the longest are left out.
-constexpr double least_arrow = 0.06;
 /// Forces that point this much at the viewer press on the far side: the picture would show them through the body.
 constexpr double far_side = 0.3;
 
@@ -40,51 +36,21 @@ Vec3 upOf(const Scenario& s) {
   return norm(g) > 0 ? -1.0 / norm(g) * g : Vec3{0, 0, 1};
 }
 
-/// The force on the body of all samples in one cell near one body, where it acts in the mean.
-struct Cluster {
-  Vec3 force, moment_of_size;
-  double size = 0;
-};
-
-std::vector<Cluster> clustersOf(const PlacedBodies& placed, const Frame& frame, const std::vector<Vec3>& x) {
-  const Field& contact = fieldOf(frame, "contact_force");
-  std::map<std::array<int, 4>, Cluster> cells;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const Vec3 force{-contact.data[3 * i], -contact.data[3 * i + 1], -contact.data[3 * i + 2]};
-    const double size = norm(force);
-    if (!(size > 0)) continue;
-    const int body = placed.nearest(x[i]).body;
-    const auto cell = [&](double v) { return static_cast<int>(std::floor(v / arrow_cell_m)); };
-    Cluster& cluster = cells[{body, cell(x[i].x), cell(x[i].y), cell(x[i].z)}];
-    cluster.force += force;
-    cluster.moment_of_size += size * x[i];
-    cluster.size += size;
-  }
-  std::vector<Cluster> clusters;
-  for (const auto& [key, cluster] : cells) clusters.push_back(cluster);
-  return clusters;
-}
-
-double mostOf(const std::vector<Cluster>& clusters) {
-  double most = 0;
-  for (const Cluster& c : clusters) most = std::max(most, norm(c.force));
-  return most;
-}
-
 /// Arrows end where the body is pushed, so that they stay outside of it; one of `most_N` is `longest_m` long. They
 /// have a legend where there are any, which says what they push `on`.
-void addArrows(Scene& scene, const std::vector<Cluster>& clusters, double most_N, double longest_m, const char* on) {
+void addArrows(Scene& scene, const std::vector<ForceCluster>& clusters, double most_N, double longest_m,
+               const char* on) {
   if (!(most_N > 0)) return;
   const double m_per_N = longest_m / most_N;
   const Vec3 towards = axesOf(scene.view, scene.up).towards;
-  for (const Cluster& c : clusters) {
-    if (norm(c.force) < least_arrow * most_N || dot(c.force, towards) > far_side * norm(c.force)) continue;
-    const Vec3 tip = c.moment_of_size / c.size;
+  for (const ForceCluster& c : clusters) {
+    if (norm(c.force) < kLeastArrow * most_N || dot(c.force, towards) > far_side * norm(c.force)) continue;
+    const Vec3 tip = c.middle();
     scene.arrows.push_back({tip - m_per_N * c.force, tip, arrow_color});
   }
   if (scene.arrows.empty()) return;
   const double legend_N = roundedUp(0.5 * most_N);
-  scene.arrow_legend = fmt::format("{0:g} N on {1:g} x {1:g} cm of {2}", legend_N, 100 * arrow_cell_m, on);
+  scene.arrow_legend = fmt::format("{0:g} N on {1:g} x {1:g} cm of {2}", legend_N, 100 * kArrowCell_m, on);
   scene.arrow_legend_length_m = legend_N * m_per_N;
 }
 
@@ -142,7 +108,7 @@ PictureScale scaleOf(const Scenario& s, const RecordingReader& recording, int in
   scale.box_m = garment[1] - garment[0] + 2 * Vec3{margin_m, margin_m, margin_m};
   PlacedBodies placed(s);
   placed.moveTo(frame.time_s);
-  scale.most_N = mostOf(clustersOf(placed, frame, x));
+  scale.most_N = largestForce(forceClusters(placed, frame, x));
   if (field == PictureField::plain) return scale;
   const FieldWords words = fieldWords(field);
   if (field == PictureField::thickness) {
@@ -234,9 +200,9 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
     // Friction falls from 100 % of new cloth: its least is what tells.
     const bool falls = picture.field == PictureField::friction;
     const auto [least, most] = std::minmax_element(scalars.begin(), scalars.end());
-    scene.bar = ColorBar{fmt::format("{}; here {} {}", words.title, falls ? "down to" : "up to",
-                                     formatBrief(falls ? *least : *most, 2)),
-                         0, words.scale * scale.high};
+    scene.bar = ColorBar{
+        fmt::format("{}; here {} {}", words.title, falls ? "down to" : "up to", formatBrief(falls ? *least : *most, 2)),
+        0, words.scale * scale.high};
   }
   for (const WornMesh& worn : wornMeshes(s)) {
     RenderMesh cloth{{}, worn.triangles, {}, worn.color, true, {}};
@@ -248,8 +214,7 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
   }
   const std::array<Vec3, 2> garment = boxOf(x, 0);
   const Vec3 middle = 0.5 * (garment[0] + garment[1]);
-  addArrows(scene, clustersOf(placed, frame, x), scale.most_N, 0.14 * scale.size_m,
-            s.human ? "body" : "obstacle");
+  addArrows(scene, forceClusters(placed, frame, x), scale.most_N, 0.14 * scale.size_m, s.human ? "body" : "obstacle");
   scene.focus = {middle - 0.5 * scale.box_m, middle + 0.5 * scale.box_m};
   scene.title = s.definition.name;
   scene.subtitle = captionOf(picture, frame.time_s, s.definition.comfort.sensor_m);

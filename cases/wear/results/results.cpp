@@ -15,6 +15,7 @@
 #include "cases/runs/temporary_folder.hpp"
 #include "cases/wear/recording/recorded_scene.hpp"
 #include "cases/wear/results/check_words.hpp"
+#include "cases/wear/results/viewer.hpp"
 #include "cases/wear/results/write.hpp"
 #include "core/error.hpp"
 #include "core/io/own_file.hpp"
@@ -209,6 +210,7 @@ void writeResults(const std::filesystem::path& dir) {
   const std::vector<Picture> pictures = takePictures(s, recording, m, dir / "snapshots", failures);
   ReportInput in = reportInput(s, m, facts, recording.layout().identity, pictures);
   in.comfort_pictures = takeBodyPictures(s, m, dir / "snapshots", failures);
+  addViewer(s, recording, m, in);
   in.warnings.insert(in.warnings.end(), failures.begin(), failures.end());
   writeReport(in, dir / "report.html");
   for (const AuditCheck& c : in.audit)
@@ -234,6 +236,7 @@ int reportResults(const ReportOptions& o) {
   const std::vector<Picture> pictures = takePictures(*scenario, recording, m, folder.path(), failures);
   ReportInput in = reportInput(*scenario, m, facts, recording.layout().identity, pictures);
   in.comfort_pictures = takeBodyPictures(*scenario, m, folder.path(), failures);
+  addViewer(*scenario, recording, m, in);
   in.warnings.insert(in.warnings.end(), failures.begin(), failures.end());
   writeReport(in, o.html);
   if (!failures.empty()) throw RunError(failures.front() + " (the report is " + o.html.string() + ")");

@@ -100,7 +100,7 @@ const Keys carried{
     {"Dressing", "projecting layer_by_layer from history settle"},
     {"Projecting", "clearance grow"},
     {"Time", "duration step_safety max_step step"},
-    {"Output", "window frame checkpoint pictures"},
+    {"Output", "window frame checkpoint pictures viewer"},
     {"Picture", "time field view width height"},
     {"Analysis", "joints counting task"},
     {"Comfort", "shoulder chest waist hips thigh arm other wear sensor effort_amber effort_red"},
