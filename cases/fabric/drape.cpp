@@ -177,6 +177,7 @@ Draped drape(const Fabric& fabric, const Specimen& specimen, const DrapeTester& 
   constexpr int kRays = 1440, kPerCell = 4;
   constexpr double kFirst = 0.01, kMore = 1.35;
   constexpr double kOnTheWay = 1e-4, kAtRest = 1e-6;  // of forces
+  constexpr double kBalanced = 1e-3;                  // of the weight
   constexpr double kNode = 0.05;                      // of the ring's width
   const StructureCase c = ringOf(fabric, specimen, tester);
   const Sheet sheet = sheetOf(c);
@@ -201,10 +202,11 @@ Draped drape(const Fabric& fabric, const Specimen& specimen, const DrapeTester& 
   hang(kHanging);
 
   Draped out;
-  out.at_rest = fall.sink(kEven, step_m, 1e-6, kAtRest);
+  const bool still = fall.sink(kEven, step_m, 1e-6, kAtRest);
   out.steps = fall.steps;
   out.unbalanced = fall.unbalanced(kEven) /
                    (kGravity_m_per_s2 * fabric.surfaceDensity() * std::numbers::pi * ring_m * (ring_m + 2 * support_m));
+  out.at_rest = still && out.unbalanced < kBalanced;
   const PlaceMesh mesh = cloth->placeMesh(kPerCell);
   out.triangles = mesh.triangles;
   const std::vector<Vec3> q = controlPoints(*structure, fall.state(), kEven, ProgramEnds::extended);

@@ -22,7 +22,7 @@ struct Draped {
   int nodes = 0;           ///< folds
   long crossings = 0;      ///< pairs of triangles that pass through each other: cloth does not touch itself here
   int steps = 0;           ///< that were taken
-  bool at_rest = false;    ///< else it still sank when the steps were used up
+  bool at_rest = false;    ///< else it still sank, or its forces do not balance
   double unbalanced = 0;   ///< sum of the sizes of all forces that no other balances, as a part of the ring's weight
   std::vector<Vec2> outline;
   std::vector<Vec3> points;  ///< the height z is 0 on the support
@@ -37,8 +37,9 @@ struct Draped {
 /// The ring is clamped where the discs end. Its weight grows from a hundredth to all of it, as the table of the tester
 /// is lowered: under all of it at once it would take twice as many folds, and keep them. At each weight it sinks in
 /// steps of an implicit Euler method against a drag (K + M/s, s grows while little moves) to a stable equilibrium:
-/// inertia plays no part. It is at rest where a step that a fall of 100 m would take moves no point by 1 um, forces
-/// balanced within 1e-6 of their size; `unbalanced` is what then is left without the drag. So that the ring knows where
+/// inertia plays no part. It is at rest where a step that a fall of 100 m would take moves no point by 1 um and what is
+/// `unbalanced` then, without the drag, is less than 1e-3: points that stand still are not enough (a step whose solve
+/// ends by rounding does not move either). So that the ring knows where
 /// to fold, its weight is uneven by 2 % in a fixed pattern until it hangs, and even from then on; each `start` has the
 /// pattern turned against the grain, and may find other folds. Cloth does not touch itself; `crossings` tells where
 /// that would matter. Quadratic cells take assumed strains, and are narrow beside the support; others lock, and the
@@ -48,9 +49,9 @@ struct Draped {
 /// shear_friction.hpp; Wong 2014, eq. 4.2), that slip as the ring sinks and hold it where it stops. Bent for the first
 /// time beyond K0 cloth bears
 ///   m = B k + 2HB/2 [N],
-/// so that a fold of curvature k is as stiff as B + 2HB/(2 k) [N m]: folds of a draped ring have 10 to 50 per m, where
-/// B of KES, a slope between 50 and 150, is the lesser part. The specimen sinks once, as in Cusick's tester; JIS L 1096
-/// shakes it three times, which is left out and would undo a part of the friction.
+/// so that a fold of curvature k is as stiff as B + 2HB/(2 k) [N m]: the less curved, the more so, and B of KES is a
+/// slope between 50 and 150 per m. The specimen sinks once, as in Cusick's tester; JIS L 1096 shakes it three times,
+/// which is left out and would undo a part of the friction.
 Draped drape(const Fabric& fabric, const Specimen& specimen, const DrapeTester& tester = {});
 
 }  // namespace gambeson::laboratory

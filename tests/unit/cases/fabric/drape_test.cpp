@@ -100,7 +100,7 @@ TEST(Drape, ARigidDiscStaysAndAStiffOneSinksAsAPlate) {
 TEST(Drape, FrictionThatHoldsIsRigidity) {
   useThreads(1);
   const double weight = 0.2;
-  const Draped held = laboratory::drape(rubbingCloth(1, weight, 1.5, 1e6), ring(16, 2));
+  const Draped held = laboratory::drape(rubbingCloth(1, weight, 1.5, 200), ring(16, 2));
   const double plate = rimOfPlate(9.80665 * weight, 1.5, 0.09, 0.15);
   EXPECT_NEAR(lowest(held), plate, 0.01 * plate);
 }
@@ -113,8 +113,8 @@ TEST(Drape, FrictionHoldsFolds) {
   EXPECT_GT(rubbing.coefficient, elastic.coefficient + 0.03);
   EXPECT_TRUE(elastic.at_rest);
   EXPECT_TRUE(rubbing.at_rest);
-  EXPECT_LT(elastic.unbalanced, 1e-3);
-  EXPECT_LT(rubbing.unbalanced, 1e-3);
+  EXPECT_LT(elastic.unbalanced, 1e-4);
+  EXPECT_LT(rubbing.unbalanced, 1e-4);
 }
 
 // Nothing is said that starts, mesh or unrest leave open.
