@@ -73,7 +73,8 @@ struct CardFast {
 /// Cusick's drape test (BS 5058, ISO 9073-9): what no fabric is made of, but what the laboratory is compared with.
 struct CardDrape {
   double coefficient = 0;    ///< a part of 1
-  double specimen_m = 0.30;  ///< diameter; the support's is 18 cm
+  double specimen_m = 0.30;  ///< diameter
+  double support_m = 0.18;   ///< of the discs that hold it
   std::optional<double> nodes;
   std::string source;  ///< where it is from, if not with the card's other numbers
 };

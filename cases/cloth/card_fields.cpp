@@ -250,11 +250,16 @@ Object drapeTable() {
   labNumber(table, "coefficient", &D::coefficient, "", "", between(0, 1),
             "drape coefficient, the share of the free ring that its shadow covers: a part, or \"55 %\"", "required");
   labNumber(table, "specimen", &D::specimen_m, "m", "30 cm", between(0.2, 0.5),
-            "diameter of the specimen; the discs that hold it have 18 cm", "30 cm");
+            "diameter of the specimen: 24, 30 or 36 cm (BS 5058), 25.4 cm (JIS L 1096)", "30 cm");
+  labNumber(table, "support", &D::support_m, "m", "18 cm", between(0.05, 0.4),
+            "diameter of the discs that hold it: 18 cm (BS 5058), 12.7 cm (JIS L 1096)", "18 cm");
   labNumber(table, "nodes", &D::nodes, "", "", between(0, 100), "how many folds it has, the mean of specimens",
             "not said");
   table.text("source", &D::source, "where this is from, if not with the card's other numbers").defaultsTo("the card's");
-  table.check([](const Entry& p, const D&) {
+  table.check([](const Entry& p, const D& d) {
+    if (!(d.support_m < d.specimen_m))
+      p.failAt("support",
+               fmt::format("{} m is out of range; allowed: less than the specimen's {} m", d.support_m, d.specimen_m));
     if (!p.node.find("coefficient")) p.failAt("coefficient", "is required: the drape coefficient, \"55 %\" say");
   });
   return table.build();

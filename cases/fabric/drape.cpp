@@ -31,12 +31,12 @@ std::vector<double> ringsOf(int cells) {
   return knots;
 }
 
-StructureCase ringOf(const Fabric& fabric, const Specimen& s, double specimen_m) {
+StructureCase ringOf(const Fabric& fabric, const Specimen& s, const DrapeTester& tester) {
   StructureCase c;
   c.name = "specimen";
   AnnulusShape ring;
-  ring.inner_radius_m = 0.5 * kDrapeSupport_m;
-  ring.outer_radius_m = 0.5 * specimen_m;
+  ring.inner_radius_m = 0.5 * tester.support_m;
+  ring.outer_radius_m = 0.5 * tester.specimen_m;
   c.sheet.shape = ring;
   c.sheet.cells_u = 1;
   c.sheet.refine_u = ringsOf(std::max(2, s.cells / 2));
@@ -101,9 +101,9 @@ class Sinking : public Equations {
 };
 
 /// Lets the ring sink until it rests; counts the steps.
-class Tester {
+class Fall {
  public:
-  explicit Tester(const Structure& structure)
+  explicit Fall(const Structure& structure)
       : structure_(structure),
         system_(structure, ProgramEnds::extended),
         mass_(system_.sparsity()),
@@ -114,8 +114,8 @@ class Tester {
   }
 
   /// Steps move points by about `step_m`; at rest they move by no more than `rest_m` in a step that a fall of 100 m
-  /// would take. Forces balance within `tolerance`.
-  void sink(double t, double step_m, double rest_m, double tolerance) {
+  /// would take. Forces balance within `tolerance`. Returns whether it rests.
+  bool sink(double t, double step_m, double rest_m, double tolerance) {
     constexpr int kSteps = 4000;
     constexpr double kLong_s2 = 10;
     Sinking equations(system_, mass_);
@@ -145,11 +145,19 @@ class Tester {
       y_ = std::move(y);
       q = std::move(now);
       system_.commit(y_, t);
-      if (s_s2 >= kLong_s2 && moved < rest_m) return;
+      if (s_s2 >= kLong_s2 && moved < rest_m) return true;
       s_s2 = std::min(s_s2 * std::clamp(step_m / std::max(moved, 1e-12), 0.5, 3.0), 1e3 * kLong_s2);
     }
-    throw RunError(
-        fmt::format("the draped specimen does not come to rest in {} steps; take more cells, or another model", steps));
+    return false;
+  }
+
+  /// Sum of the sizes of all forces that nothing balances [N].
+  double unbalanced(double t) {
+    std::vector<double> r(y_.size());
+    system_.residual(y_, t, r);
+    double sum = 0;
+    for (const double force : r) sum += std::abs(force);
+    return sum;
   }
 
   const std::vector<double>& state() const { return y_; }
@@ -165,33 +173,43 @@ class Tester {
 
 }  // namespace
 
-Draped drape(const Fabric& fabric, const Specimen& specimen, double specimen_m, int start) {
+Draped drape(const Fabric& fabric, const Specimen& specimen, const DrapeTester& tester) {
   constexpr int kRays = 1440, kPerCell = 4;
   constexpr double kFirst = 0.01, kMore = 1.35;
   constexpr double kOnTheWay = 1e-4, kAtRest = 1e-6;  // of forces
+  constexpr double kBalanced = 1e-3;                  // of the weight
   constexpr double kNode = 0.05;                      // of the ring's width
-  const StructureCase c = ringOf(fabric, specimen, specimen_m);
+  const StructureCase c = ringOf(fabric, specimen, tester);
   const Sheet sheet = sheetOf(c);
   const std::shared_ptr<const Cloth> cloth = clothOf(c, sheet);
   StructureOptions options = optionsOf(c, sheet, *cloth);
   DeadLoad uneven{cloth->mounting().weightForce({0, 0, -kGravity_m_per_s2}), 2};
   for (std::size_t i = 0; i < uneven.force_N.size(); ++i)
-    uneven.force_N[i] = kUneven * pattern(cloth->rest()[i], start) * uneven.force_N[i];
+    uneven.force_N[i] = kUneven * pattern(cloth->rest()[i], tester.start) * uneven.force_N[i];
   options.dead.push_back(std::move(uneven));
   const std::unique_ptr<Structure> structure = buildStructure(cloth, options);
 
-  Tester tester(*structure);
-  const double ring_m = 0.5 * (specimen_m - kDrapeSupport_m), step_m = ring_m / 15;
-  for (double weight = kFirst; weight < kHanging; weight *= kMore)
-    tester.sink(weight, step_m, 0.02 * step_m, kOnTheWay);
-  tester.sink(kHanging, step_m, 0.02 * step_m, kOnTheWay);
-  tester.sink(kEven, step_m, 1e-6, kAtRest);
+  Fall fall(*structure);
+  const double support_m = 0.5 * tester.support_m, ring_m = 0.5 * tester.specimen_m - support_m, step_m = ring_m / 15;
+  const auto hang = [&](double weight) {
+    if (!fall.sink(weight, step_m, 0.02 * step_m, kOnTheWay))
+      throw RunError(fmt::format(
+          "the draped specimen finds no equilibrium under {:.3g} of its weight in {} steps; take more cells, or "
+          "another model",
+          weight, fall.steps));
+  };
+  for (double weight = kFirst; weight < kHanging; weight *= kMore) hang(weight);
+  hang(kHanging);
 
   Draped out;
-  out.steps = tester.steps;
+  const bool still = fall.sink(kEven, step_m, 1e-6, kAtRest);
+  out.steps = fall.steps;
+  out.unbalanced = fall.unbalanced(kEven) /
+                   (kGravity_m_per_s2 * fabric.surfaceDensity() * std::numbers::pi * ring_m * (ring_m + 2 * support_m));
+  out.at_rest = still && out.unbalanced < kBalanced;
   const PlaceMesh mesh = cloth->placeMesh(kPerCell);
   out.triangles = mesh.triangles;
-  const std::vector<Vec3> q = controlPoints(*structure, tester.state(), kEven, ProgramEnds::extended);
+  const std::vector<Vec3> q = controlPoints(*structure, fall.state(), kEven, ProgramEnds::extended);
   std::vector<Vec3> flat;
   for (std::size_t i = 0; i < mesh.uv.size(); ++i) {
     const PlaceRow row = cloth->mounting().place(mesh.patch[i], mesh.uv[i]);
@@ -203,7 +221,6 @@ Draped drape(const Fabric& fabric, const Specimen& specimen, double specimen_m, 
     out.points.push_back(x);
     flat.push_back(X);
   }
-  const double support_m = 0.5 * kDrapeSupport_m;
   const Shadow shadow = shadowOf(out.points, out.triangles, support_m, kRays);
   out.coefficient = shadow.area_m2 / shadowOf(flat, out.triangles, support_m, kRays).area_m2;
   out.nodes = nodesOf(shadow.reach_m, kNode * ring_m);

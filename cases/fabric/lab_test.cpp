@@ -197,40 +197,45 @@ void measureDroop(const FabricCard& card, const Fabric& fabric, const laboratory
 
 void measureDrape(const FabricCard& card, const Fabric& fabric, const laboratory::Specimen& specimen,
                   MeasuredTest& test) {
-  const double diameter = card.drape ? card.drape->specimen_m : laboratory::kDrapeSpecimen_m;
-  std::vector<laboratory::Draped>& starts = test.starts;
-  for (int k = 0; k < laboratory::kDrapeStarts; ++k) starts.push_back(laboratory::drape(fabric, specimen, diameter, k));
-  std::sort(starts.begin(), starts.end(), [](const auto& a, const auto& b) { return a.coefficient < b.coefficient; });
-  double mean = 0, nodes_mean = 0;
-  long crossings = 0;
-  std::vector<std::string> said;
-  for (const laboratory::Draped& s : starts) {
-    mean += s.coefficient / laboratory::kDrapeStarts;
-    nodes_mean += static_cast<double>(s.nodes) / laboratory::kDrapeStarts;
-    crossings = std::max(crossings, s.crossings);
-    said.push_back(fmt::format("{:.1f} % ({} nodes)", 100 * s.coefficient, s.nodes));
-  }
-  test.draped = starts[starts.size() / 2];
-  const laboratory::Draped& d = *test.draped;
-  for (std::size_t i = 0; i <= d.outline.size(); ++i) {
-    const Vec2& x = d.outline[i % d.outline.size()];
+  const CardDrape said = card.drape.value_or(CardDrape{});
+  test.drapes = laboratory::drapeSeries(fabric, specimen, said.specimen_m, said.support_m);
+  const laboratory::DrapeSeries& series = *test.drapes;
+  const laboratory::Draped& drawn = test.drawn();
+  for (std::size_t i = 0; i <= drawn.outline.size(); ++i) {
+    const Vec2& x = drawn.outline[i % drawn.outline.size()];
     test.loop.push_back({x.x, x.y, 0});
   }
-  Reading coefficient{"drape coefficient", "%", 0.01, {}, mean, 0, {}, true};
-  Reading nodes{"nodes", "", 1, {}, nodes_mean, 0, {}};
+  Reading coefficient{"drape coefficient", "%", 0.01, {}, series.coefficient(), 0, {}, true};
+  Reading nodes{"nodes", "", 1, {}, series.nodes(), 0, {}};
   if (card.drape) {
-    coefficient.card = card.drape->coefficient;
-    if (card.drape->nodes) nodes.card = *card.drape->nodes;
-    if (!card.drape->source.empty()) test.notes.push_back("card's drape: " + card.drape->source);
+    coefficient.card = said.coefficient;
+    if (said.nodes) nodes.card = *said.nodes;
+    test.notes.push_back(laboratory::drapeVerdict(series, said.coefficient));
+    if (!said.source.empty()) test.notes.push_back("card's drape: " + said.source);
   }
   test.readings = {std::move(coefficient), std::move(nodes)};
-  test.notes.push_back(
-      fmt::format("specimen of {:.4g} cm between discs of {:.4g} cm; means of {} starts: {}; the middle one is drawn",
-                  100 * diameter, 100 * laboratory::kDrapeSupport_m, laboratory::kDrapeStarts, fmt::join(said, ", ")));
-  test.notes.push_back("the coefficient of cloth that folds falls with finer cells: compare several --cells");
-  if (crossings > 0)
-    test.notes.push_back(fmt::format(
-        "folds pass through each other at {} places: cloth that touches itself keeps a larger shadow", crossings));
+  std::vector<std::string> starts;
+  for (const laboratory::Draped& s : series.starts)
+    starts.push_back(fmt::format("{:.1f} % ({} nodes{})", 100 * s.coefficient, s.nodes, s.at_rest ? "" : ", sinking"));
+  test.notes.push_back(fmt::format(
+      "specimen of {:.4g} cm between discs of {:.4g} cm; means of {} starts: {}, a spread of {:.1f} points to either "
+      "side; the middle one is drawn",
+      100 * said.specimen_m, 100 * said.support_m, series.starts.size(), fmt::join(starts, ", "),
+      100 * series.spread()));
+  test.notes.push_back(fmt::format("mesh: {:+.1f} points against {} cells in place of {}", 100 * series.mesh(),
+                                   series.coarser_cells, series.cells));
+  test.notes.push_back(fmt::format("{}: forces of {:.1g} of the ring's weight are out of balance",
+                                   series.atRest() ? "at rest" : "not at rest", series.unbalanced()));
+  const bool rubs = !std::holds_alternative<LinearBending>(fabric.law),
+             slips = fabric.shear_friction != ShearFriction{};
+  test.notes.push_back(rubs && slips ? "held by friction in bending (2HB) and in shear (2HG)"
+                       : rubs        ? "held by friction in bending (2HB); 2HG is not known"
+                       : slips ? "held by friction in shear (2HG); 2HB is not known, without which folds are too limp"
+                               : "elastic: neither 2HB nor 2HG is known, without which folds are too limp");
+  if (series.crossings() > 0)
+    test.notes.push_back(
+        fmt::format("folds pass through each other at {} places: cloth that touches itself keeps a larger shadow",
+                    series.crossings()));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cases/cloth/card.hpp"
-#include "cases/fabric/drape.hpp"
+#include "cases/fabric/drape_series.hpp"
 #include "cases/fabric/laboratory.hpp"
 
 namespace gambeson {
@@ -41,10 +41,11 @@ struct MeasuredTest {
   double direction_deg = 0;
   laboratory::Loop loop;  ///< of cantilevers the overhang: how far it reaches, and how deep it hangs [m]
   std::vector<Reading> readings;
-  std::optional<laboratory::Draped> draped = {};  ///< whose outline is the loop: x and y [m]
-  std::vector<laboratory::Draped> starts = {};    ///< by their coefficients; `draped` is the middle one
-  std::vector<std::string> notes = {};            ///< said below the readings
+  std::optional<laboratory::DrapeSeries> drapes = {};  ///< of that test
+  std::vector<std::string> notes = {};                 ///< said below the readings
 
+  /// Of a drape, the middle start, whose outline is the loop: x and y [m].
+  const laboratory::Draped& drawn() const { return drapes->starts[drapes->starts.size() / 2]; }
   std::string title() const;  ///< "KES-FB2 bending, along the weft"
   std::string stem() const;   ///< of its files: "bending_22.5"
 };

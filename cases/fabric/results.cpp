@@ -147,9 +147,9 @@ void addCard(const MeasuredTest& test, XyPlot& plot) {
 /// The specimen before it sank, and the discs that hold it.
 void addCircles(const FabricCard& card, XyPlot& plot) {
   constexpr int kPoints = 180;
-  const double specimen = card.drape ? card.drape->specimen_m : laboratory::kDrapeSpecimen_m;
+  const CardDrape said = card.drape.value_or(CardDrape{});
   for (const auto& [name, diameter] :
-       {std::pair("specimen, flat", specimen), std::pair("support", laboratory::kDrapeSupport_m)}) {
+       {std::pair("specimen, flat", said.specimen_m), std::pair("support", said.support_m)}) {
     XySeries circle{name, {}, {}, false};
     for (int k = 0; k <= kPoints; ++k) {
       const Vec2 ray = laboratory::rayAt(k, kPoints);
@@ -165,18 +165,19 @@ void addCircles(const FabricCard& card, XyPlot& plot) {
 Image drapePicture(const FabricCard& card, const MeasuredTest& test) {
   constexpr Color kCloth{0.42f, 0.50f, 0.62f}, kDisc{0.74f, 0.73f, 0.72f};
   constexpr int kPoints = 120;
-  RenderMesh cloth{test.draped->points, test.draped->triangles, {}, kCloth, false, {}};
+  RenderMesh cloth{test.drawn().points, test.drawn().triangles, {}, kCloth, false, {}};
   RenderMesh disc{{{0, 0, 0}}, {}, {}, kDisc, true, {}};
+  const double support_m = 0.5 * card.drape.value_or(CardDrape{}).support_m;
   for (int k = 0; k < kPoints; ++k) {
     const Vec2 ray = laboratory::rayAt(k, kPoints);
-    disc.vertices.push_back({0.5 * laboratory::kDrapeSupport_m * ray.x, 0.5 * laboratory::kDrapeSupport_m * ray.y, 0});
+    disc.vertices.push_back({support_m * ray.x, support_m * ray.y, 0});
     disc.triangles.push_back({0, k + 1, (k + 1) % kPoints + 1});
   }
   Scene scene;
   scene.meshes = {std::move(cloth), std::move(disc)};
   scene.title = card.name + ": " + test.title();
   scene.subtitle =
-      fmt::format("Drape coefficient {:.1f} %, {} nodes", 100 * test.draped->coefficient, test.draped->nodes);
+      fmt::format("Drape coefficient {:.1f} %, {} nodes", 100 * test.drawn().coefficient, test.drawn().nodes);
   scene.view = View::above;
   return render(scene, 1100, 850);
 }
@@ -184,7 +185,7 @@ Image drapePicture(const FabricCard& card, const MeasuredTest& test) {
 std::string loopPicture(const FabricCard& card, const MeasuredTest& test, const std::vector<LoopSample>& raw,
                         const std::string& specimen) {
   const LabTestKind& kind = kindOf(test.test);
-  XyPlot plot{card.name + ": " + test.title(), "", kind.x_label, kind.y_label, {}, false, test.draped.has_value()};
+  XyPlot plot{card.name + ": " + test.title(), "", kind.x_label, kind.y_label, {}, false, test.drapes.has_value()};
   XySeries loop{"simulated", {}, {}, false};
   for (const laboratory::LoopPoint& p : test.loop) {
     loop.x.push_back(p.at / kind.x_unit);
@@ -199,7 +200,7 @@ std::string loopPicture(const FabricCard& card, const MeasuredTest& test, const 
     }
     plot.series.push_back(std::move(points));
   }
-  if (test.draped)
+  if (test.drapes)
     addCircles(card, plot);
   else
     addCard(test, plot);

@@ -119,12 +119,21 @@ Json testJson(const MeasuredTest& test) {
            {"picture", test.stem() + ".svg"},
            {"lost_J_per_m2", test.loop.back().lost_J_per_m2},
            {"readings", readings}};
-  long crossings = 0;
-  for (const laboratory::Draped& d : test.starts) {
-    crossings = std::max(crossings, d.crossings);
-    all["starts"].push_back({{"coefficient", d.coefficient}, {"nodes", d.nodes}});
+  if (test.drapes) {
+    const laboratory::DrapeSeries& series = *test.drapes;
+    for (const laboratory::Draped& d : series.starts)
+      all["starts"].push_back({{"coefficient", d.coefficient},
+                               {"nodes", d.nodes},
+                               {"at_rest", d.at_rest},
+                               {"unbalanced", d.unbalanced},
+                               {"steps", d.steps}});
+    all["spread_points"] = 100 * series.spread();
+    all["mesh_points"] = 100 * series.mesh();
+    all["cells"] = series.cells;
+    all["coarser_cells"] = series.coarser_cells;
+    all["at_rest"] = series.atRest();
+    all["self_crossings"] = series.crossings();
   }
-  if (test.draped) all["self_crossings"] = crossings;
   if (!test.notes.empty()) all["notes"] = test.notes;
   return all;
 }
@@ -151,7 +160,7 @@ void openLaboratory(const FabricOptions& o, const FabricCard& card, const CardFa
       out.flush();
       writeOwnFile(o.out / (test.stem() + ".csv"), loopCsv(test));
       writeOwnFile(o.out / (test.stem() + ".svg"), loopPicture(card, test, raw, specimen));
-      if (test.draped) drawDrape(card, test, o.out / (test.stem() + ".png"), out);
+      if (test.drapes) drawDrape(card, test, o.out / (test.stem() + ".png"), out);
       tests.push_back(testJson(test));
     }
   const Json all{{"card", card.name},    {"source", card.source}, {"program", "gambeson " GAMBESON_VERSION},

@@ -8,11 +8,13 @@
 #include "cases/cloth/card_library.hpp"
 #include "cases/fabric/lab_test.hpp"
 #include "cases/runs/results_folder.hpp"
+#include "core/material/hysteresis.hpp"
 
 namespace gambeson {
 namespace {
 
 using laboratory::Draped;
+using laboratory::DrapeSeries;
 using laboratory::Specimen;
 
 Fabric evenCloth(double rigidity_Nm, double weight_kg_per_m2) {
@@ -36,6 +38,27 @@ double lowest(const Draped& d) {
   double z = 0;
   for (const Vec3& x : d.points) z = std::min(z, x.z);
   return -z;
+}
+
+/// The same with friction between its fibres: so much stiffer when new, all of it overcome at `span_per_m`.
+Fabric rubbingCloth(double rigidity_Nm, double weight_kg_per_m2, double times, double span_per_m) {
+  Fabric f = evenCloth(rigidity_Nm, weight_kg_per_m2);
+  FrictionInBending law;
+  law.shape = stopsOf<kStops>(curveOver(1, 0, 1)).shape;
+  law.weft_Nm = law.warp_Nm = rigidity_Nm;
+  law.twist_Nm = 0.5 * rigidity_Nm;
+  law.first_Nm = {times * rigidity_Nm, times * rigidity_Nm, 0.5 * times * rigidity_Nm};
+  law.span_per_m.fill(span_per_m);
+  f.law = IsotropicHysteresisBending{law};
+  return f;
+}
+
+Draped restingAt(double coefficient, int nodes = 4) {
+  Draped d;
+  d.coefficient = coefficient;
+  d.nodes = nodes;
+  d.at_rest = true;
+  return d;
 }
 
 /// Deflection at the rim of a ring under a load q per area, clamped at a and free at b, of a plate without contraction
@@ -65,6 +88,50 @@ TEST(Drape, ARigidDiscStaysAndAStiffOneSinksAsAPlate) {
   EXPECT_NEAR(lowest(stiff), plate, 0.01 * plate);
   EXPECT_NEAR(stiff.coefficient, 1, 1e-6);
   EXPECT_EQ(stiff.nodes, 0);
+  EXPECT_TRUE(stiff.at_rest);
+  EXPECT_LT(stiff.unbalanced, 1e-4);
+  // JIS L 1096: 25.4 cm on 12.7 cm.
+  const Draped small = laboratory::drape(evenCloth(1, weight), ring(16, 2), {0.254, 0.127, 0});
+  const double smaller = rimOfPlate(q, 1, 0.0635, 0.127);
+  EXPECT_NEAR(lowest(small), smaller, 0.01 * smaller);
+}
+
+// Friction that no curvature overcomes is rigidity: 1.5 times of it sink by two thirds.
+TEST(Drape, FrictionThatHoldsIsRigidity) {
+  useThreads(1);
+  const double weight = 0.2;
+  const Draped held = laboratory::drape(rubbingCloth(1, weight, 1.5, 200), ring(16, 2));
+  const double plate = rimOfPlate(9.80665 * weight, 1.5, 0.09, 0.15);
+  EXPECT_NEAR(lowest(held), plate, 0.01 * plate);
+}
+
+// Beyond the friction the rigidity is the same: folds that slip are held by what friction leaves, and rest.
+TEST(Drape, FrictionHoldsFolds) {
+  useThreads(1);
+  const Draped elastic = laboratory::drape(evenCloth(2e-5, 0.2), ring(8, 2)),
+               rubbing = laboratory::drape(rubbingCloth(2e-5, 0.2, 3, 50), ring(8, 2));
+  EXPECT_GT(rubbing.coefficient, elastic.coefficient + 0.03);
+  EXPECT_TRUE(elastic.at_rest);
+  EXPECT_TRUE(rubbing.at_rest);
+  EXPECT_LT(elastic.unbalanced, 1e-4);
+  EXPECT_LT(rubbing.unbalanced, 1e-4);
+}
+
+// Nothing is said that starts, mesh or unrest leave open.
+TEST(Drape, TheVerdictSaysWhatIsKnown) {
+  DrapeSeries s;
+  s.starts = {restingAt(0.40), restingAt(0.42), restingAt(0.44)};
+  s.coarser = {restingAt(0.41), restingAt(0.42), restingAt(0.46)};
+  EXPECT_NEAR(s.coefficient(), 0.42, 1e-15);
+  EXPECT_NEAR(s.spread(), 0.02, 1e-15);
+  EXPECT_NEAR(s.mesh(), -0.01, 1e-15);
+  EXPECT_EQ(drapeVerdict(s, 0.45).rfind("within 8 points of the card: it is 3.0 off", 0), 0u) << drapeVerdict(s, 0.45);
+  EXPECT_EQ(drapeVerdict(s, 0.55).rfind("not within 8 points", 0), 0u);
+  EXPECT_EQ(drapeVerdict(s, 0.48).rfind("whether it is within 8 points of the card is not known: it is", 0), 0u);
+  EXPECT_EQ(drapeVerdict(s, 0.52).rfind("whether it is within 8 points of the card is not known: it is", 0), 0u);
+  s.coarser[1].at_rest = false;
+  EXPECT_FALSE(s.atRest());
+  EXPECT_EQ(drapeVerdict(s, 0.42).rfind("whether it is within 8 points of the card is not known: not all", 0), 0u);
 }
 
 // A start turns what the specimen's weight is uneven by, so that soft cloth takes other folds, and about the same
@@ -72,7 +139,7 @@ TEST(Drape, ARigidDiscStaysAndAStiffOneSinksAsAPlate) {
 TEST(Drape, StartsTurnThePattern) {
   useThreads(1);
   const Draped a = laboratory::drape(evenCloth(2e-5, 0.2), ring(8, 2)),
-               b = laboratory::drape(evenCloth(2e-5, 0.2), ring(8, 2), laboratory::kDrapeSpecimen_m, 1);
+               b = laboratory::drape(evenCloth(2e-5, 0.2), ring(8, 2), {.start = 1});
   EXPECT_NE(a.coefficient, b.coefficient);
   EXPECT_NEAR(a.coefficient, b.coefficient, 0.1);
 }
@@ -105,11 +172,14 @@ TEST(Drape, TheCardsCoefficientStandsBesideTheSimulatedOne) {
   EXPECT_TRUE(test.readings[0].share);
   EXPECT_GT(test.readings[0].measured, 0.999);
   EXPECT_EQ(*test.readings[1].card, 0);
-  ASSERT_EQ(test.starts.size(), 3u);
-  EXPECT_NEAR(test.readings[0].measured,
-              (test.starts[0].coefficient + test.starts[1].coefficient + test.starts[2].coefficient) / 3, 1e-15);
-  EXPECT_EQ(test.draped->coefficient, test.starts[1].coefficient) << "the middle one";
-  EXPECT_EQ(test.loop.size(), test.draped->outline.size() + 1) << "a closed outline";
+  const std::vector<Draped>& starts = test.drapes->starts;
+  ASSERT_EQ(starts.size(), 3u);
+  EXPECT_EQ(test.drapes->coarser_cells, 5);
+  EXPECT_EQ(test.drapes->coarser.size(), 3u);
+  EXPECT_NEAR(test.readings[0].measured, (starts[0].coefficient + starts[1].coefficient + starts[2].coefficient) / 3,
+              1e-15);
+  EXPECT_EQ(test.drawn().coefficient, starts[1].coefficient) << "the middle one";
+  EXPECT_EQ(test.loop.size(), test.drawn().outline.size() + 1) << "a closed outline";
 }
 
 }  // namespace
