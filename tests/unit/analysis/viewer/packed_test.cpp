@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "tests/unit/analysis/viewer/page_reader.hpp"
+#include "unit/analysis/viewer/page_reader.hpp"
 
 namespace gambeson {
 namespace {

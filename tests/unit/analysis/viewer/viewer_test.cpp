@@ -6,7 +6,7 @@
 
 #include "analysis/report/report.hpp"
 #include "analysis/viewer/packed.hpp"
-#include "tests/unit/analysis/viewer/page_reader.hpp"
+#include "unit/analysis/viewer/page_reader.hpp"
 
 namespace gambeson {
 namespace {
