@@ -78,7 +78,7 @@ def compiles(build, source, header):
     commands = json.loads((Path(build) / "compile_commands.json").read_text())
     entry = next(c for c in commands if has(Path(c["file"]), source))
     words = shlex.split(entry["command"])
-    start = next(k for k, word in enumerate(words) if re.search(r"(\+\+|clang|gcc)[^/]*$", word) and "ccache" not in word)
+    start = next(k for k, word in enumerate(words) if re.search(r"(\+\+|clang|gcc)[^/]*$", word) and not Path(word).name.startswith("ccache"))
     keep = [w for w in words[start:] if w.startswith(("-I", "-D", "-std", "-f"))] + \
         [x for k, w in enumerate(words) if w == "-isystem" for x in words[k:k + 2]]
     with tempfile.TemporaryDirectory() as folder:
