@@ -19,7 +19,9 @@ struct IntersectingPair {
 
 struct Intersections {
   std::vector<IntersectingPair> pairs;  ///< sorted
-  std::vector<int> collapsed;           ///< triangles whose corners lie exactly on a line: never right in a surface
+  /// Of cloth on both sides of a sewn seam, whose borders lie on one line: left out of `pairs` by whoever knows seams.
+  std::vector<IntersectingPair> across_seams = {};
+  std::vector<int> collapsed = {};      ///< triangles whose corners lie exactly on a line: never right in a surface
   bool none() const { return pairs.empty() && collapsed.empty(); }
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 
 #include "core/contact/scene_check.hpp"
 #include "core/motion/step.hpp"
@@ -44,6 +45,13 @@ Intersections SceneIntersections::ofSamples(std::span<const Vec3> samples, doubl
     while (k < local_.size() && obstacle_of_[k] == static_cast<int>(o)) ++k;
   }
   Intersections found = intersections(x, triangles_, obstacle_);
+  const ContactMesh& mesh = model_.collisions.mesh;
+  const auto across = [&](const IntersectingPair& p) {
+    return p.shared == 0 && p.b < static_cast<int>(model_.surface.triangles.size()) &&
+           mesh.hangTogether(triangles_[p.a], triangles_[p.b]);
+  };
+  std::copy_if(found.pairs.begin(), found.pairs.end(), std::back_inserter(found.across_seams), across);
+  std::erase_if(found.pairs, across);
   // A body's own triangles are the case's, not the simulation's.
   std::erase_if(found.collapsed, [&](int t) { return obstacle_[triangles_[t][0]]; });
   return found;

@@ -64,6 +64,8 @@ class Looker {
   /// 1 where something intersects that should not.
   int verdict(const char* looked_at) const {
     fmt::print("{} {}, {} with intersections, {} pairs at most\n", looks_, looked_at, intersecting_, most_);
+    if (across_seams_ > 0)
+      fmt::print("and up to {} pairs of both sides of a sewn seam, which touch each other there\n", across_seams_);
     if (intersecting_ > 0 && !late_) fmt::print("free from {:.6f} s on\n", free_from_s_);
     return late_;
   }
@@ -87,6 +89,7 @@ class Looker {
     else if (!std::isfinite(free_from_s_))
       free_from_s_ = time_s;
     most_ = std::max(most_, found.pairs.size());
+    across_seams_ = std::max(across_seams_, found.across_seams.size());
     if (!always && found.none()) return;
     const auto with_cloth = std::count_if(found.pairs.begin(), found.pairs.end(),
                                           [&](const exact::IntersectingPair& p) { return p.b < cloth_; });
@@ -102,7 +105,7 @@ class Looker {
   exact::SceneIntersections check_;
   int cloth_, named_;
   long looks_ = 0, intersecting_ = 0;
-  std::size_t most_ = 0;
+  std::size_t most_ = 0, across_seams_ = 0;
   double free_by_s_;
   bool late_ = false;
   double free_from_s_ = -1e300;  ///< infinite while something intersects

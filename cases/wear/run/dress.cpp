@@ -108,8 +108,8 @@ Closed closePanels(const Case& one, const Case& whole, std::size_t garment, Dres
 /// Seams of panels are closed [sides of a cell].
 constexpr double closed_cells = 0.05;
 
-/// Of panels without weight.
-constexpr double closing_m_per_s = 0.5;
+/// Of panels without weight; and what contacts may leave of it, as a part of g dt: some mm/s.
+constexpr double closing_m_per_s = 0.5, closing_tolerance = 2;
 
 bool areSame(const Posture& a, const Posture& b) {
   constexpr double little = 1e-9;
@@ -131,6 +131,7 @@ std::unique_ptr<Scenario> standingPanels(const Case& one, const Case& whole, std
   const double close_s = std::get<PatternGarment>(one.garments[0].shape).close_within_s;
   standing.dressing.settle_s = close_s;
   standing.contact.friction = 0;
+  standing.contact.tolerance = std::max(standing.contact.tolerance, closing_tolerance);
   standing.contact.friction_cloth.reset();
   standing.garments[0].friction.reset();
   for (ObstacleCase& obstacle : standing.obstacles) obstacle.friction.reset();
@@ -198,7 +199,8 @@ State closedAround(const Scenario& s, double closed_s, Frequency& frequency, Dre
   if (widest > closed_cells)
     throw RunError(
         fmt::format("seams gape after {} s, {:.2g} sides of a cell at most (to be closed: {}): {}; more time "
-                    "(close_within), or panels that stand nearer to the wearer, may close them{}{}",
+                    "(close_within), panels that stand nearer to the wearer, or the other way to place them "
+                    "(\"placing\" in the pattern's file: given, regions) may close them{}{}",
                     closed_s - s.start_s, widest, closed_cells, gapesText(s, state),
                     fitText(s, state).empty() ? "" : ". It does not fit: ", fitText(s, state)));
   if (const std::string fit = fitText(s, state); !fit.empty())

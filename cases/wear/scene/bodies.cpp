@@ -37,8 +37,9 @@ void noteFolds(const HumanCase& human, MadeBodies& s) {
     note += fmt::format(
         "; {:.1f} cm^2 are switched off, {:.1f} of them since they come nearer to other skin than {:.3g} mm",
         1e4 * o.tight_m2, 1e4 * (o.tight_m2 - o.area_m2), 1e3 * SkinOptions{}.crease_gap_m);
-  } else if (kindOf(human).holds_apart) {
-    note += "; hips_apart and arms_apart hold the limbs apart";
+  } else {
+    if (human.character || human.scan) note += "; cloth is pinched there, and \"switch_off_folds\" leaves it free";
+    if (kindOf(human).holds_apart) note += "; hips_apart and arms_apart hold the limbs apart";
   }
   s.notes.push_back(note);
 }
