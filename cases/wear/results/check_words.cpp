@@ -32,6 +32,11 @@ CheckWords checkWords(const std::string& check, double value, double limit, cons
             "this much too near to the body, which counts where it is as much as the cloth is thick. Finer cells or "
             "more samples_per_cell lessen it.",
             false};
+  if (check == "Seams")
+    return {fmt::format("seams gape by up to {} of a cell", much),
+            "Cloth is not held together there: what it bears across the seam is too small. Contact that is not solved "
+            "parts them, or cloth too tight for its wearer.",
+            false};
   if (check == "Contact solver")
     return {fmt::format("contact forces are not solved to the tolerance in {} of the steps", much),
             "Forces of those steps are approximate. Peaks that fall among them are less sure than root mean squares; "

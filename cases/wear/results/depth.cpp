@@ -1,4 +1,5 @@
-/// Detail of measure.hpp: how deep the cloth's surface itself lies in the body, between the samples that contact sees.
+/// Detail of measure.hpp: how deep the cloth's surface itself lies in the body, between the samples that contact sees,
+/// and how far seams gape.
 
 #include <algorithm>
 
@@ -43,6 +44,28 @@ SurfaceDepth surfaceDepth(const Scenario& s, const RecordingReader& recording) {
       if (-c.gap_m > depth.deepest_m) depth.deepest_m = -c.gap_m, depth.time_s = frame.time_s;
   }
   return depth;
+}
+
+std::optional<SeamGap> widestSeamGap(const Scenario& s, const RecordingReader& recording) {
+  const SewnRows rows = s.model->cloth->sewnRows();
+  if (rows.empty()) return std::nullopt;
+  const auto count = static_cast<std::size_t>(rows.pairs.rows());
+  std::vector<Vec3> gap(count);
+  SeamGap widest;
+  for (int k = 0; k < recording.frameCount(); ++k) {
+    if (!(recording.time(k) > 1e-9)) continue;
+    const Frame frame = recording.frame(k);
+    const std::vector<Vec3> q = controlPointsOf(frame, static_cast<std::size_t>(rows.pairs.column_count));
+    rows.pairs.multiply<Vec3>(q, gap);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!(norm(gap[i]) > widest.cells * rows.cell_m[i])) continue;
+      Vec3 side{};  // the hats of one side, which are positive, sum to 1
+      for (int e = rows.pairs.offsets[i]; e < rows.pairs.offsets[i + 1]; ++e)
+        if (rows.pairs.values[e] > 0) side += rows.pairs.values[e] * q[static_cast<std::size_t>(rows.pairs.columns[e])];
+      widest = {norm(gap[i]), norm(gap[i]) / rows.cell_m[i], frame.time_s, side};
+    }
+  }
+  return widest;
 }
 
 }  // namespace gambeson

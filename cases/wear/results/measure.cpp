@@ -433,6 +433,7 @@ Measured measure(const Scenario& s, const RecordingReader& recording) {
 Measured measureAll(const Scenario& s, const RecordingReader& recording) {
   Measured m = measure(s, recording);
   m.surface_depth = surfaceDepth(s, recording);
+  m.seam_gap = widestSeamGap(s, recording);
   measureStretch(s, recording, m);
   measureFalls(s, recording, m);
   measureGirths(s, recording, m);

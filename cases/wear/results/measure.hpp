@@ -212,6 +212,14 @@ struct SurfaceDepth {
   int points = 0;
 };
 SurfaceDepth surfaceDepth(const Scenario& scenario, const RecordingReader& recording);
+/// The widest gap between both sides of a sewn seam, at points all along (SewnRows::pairs), at every frame of the motion.
+struct SeamGap {
+  double gap_m = 0, cells = 0;  ///< and in sides of the smaller cell there
+  double time_s = 0;
+  Vec3 at_m;
+};
+/// None where nothing is sewn so.
+std::optional<SeamGap> widestSeamGap(const Scenario& scenario, const RecordingReader& recording);
 /// The control points of a frame. Throws RunError where they are not `count`.
 std::vector<Vec3> controlPointsOf(const Frame& frame, std::size_t count);
 
@@ -340,6 +348,7 @@ struct Measured {
   double cloth_kg = 0;                        ///< mass of all garments
   bool limited = false;                       ///< whether the case limits strain
   std::optional<SurfaceDepth> surface_depth;  ///< costs seconds: only where asked for
+  std::optional<SeamGap> seam_gap;            ///< the same
   /// Of each frame of the motion, ThreadStrains::columns: only where asked for.
   std::vector<std::vector<double>> thread_strains;
   std::optional<RecordedRange> recorded;

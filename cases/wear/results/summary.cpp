@@ -332,6 +332,11 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
     j["deepest_penetration_of_finer_surface"] = {{"deepest_m", m.surface_depth->deepest_m},
                                                  {"time_s", m.surface_depth->time_s},
                                                  {"points", m.surface_depth->points}};
+  if (m.seam_gap)
+    j["widest_seam_gap"] = {{"gap_m", m.seam_gap->gap_m},
+                            {"cells", m.seam_gap->cells},
+                            {"time_s", m.seam_gap->time_s},
+                            {"at_m", {m.seam_gap->at_m.x, m.seam_gap->at_m.y, m.seam_gap->at_m.z}}};
   j["momentum"] = {{"largest_error_ratio", m.steps.momentum_error}, {"at_s", m.steps.momentum_error_time_s}};
   j["energy"] = {{"change_J", m.energy.change},
                  {"work_contact_J", m.energy.contact},

@@ -142,6 +142,11 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
     checks.push_back(
         {"Penetration between samples", 1e3 * m.surface_depth->deepest_m, 0.2, "mm",
          "the deepest point of the cloth's surface, evaluated four times finer than the samples, at every frame"});
+  if (m.seam_gap)
+    checks.push_back({"Seams", 100 * m.seam_gap->cells, 1, "%",
+                      fmt::format("the widest gap between both sides of a sewn seam at every frame, of the side of a "
+                                  "cell; here {:.3g} mm at a height of {:.2f} m",
+                                  1e3 * m.seam_gap->gap_m, m.seam_gap->at_m.z)});
   for (const FallMeasure& f : m.falls)
     checks.push_back(
         {f.garment.empty() ? "Slipping" : "Slipping, " + f.garment, 1e3 * f.largest_m, 50, "mm",
