@@ -97,9 +97,17 @@ NewtonReport solveNewton(Equations& equations, const NewtonOptions& options, std
       return report;
     }
     const bool balanced = size <= options.tolerance * report.force;
-    if (balanced || endsByRounding(size, report.force, roundingForce(K, options.length_m), still)) {
+    const auto isRounding = [&] {
+      return endsByRounding(size, report.force, roundingForce(K, options.length_m), still);
+    };
+    bool rounded = !balanced && isRounding();
+    if (rounded) {  // by the tangent of another state, which may have been far away
+      equations.tangent(y, K);
+      rounded = isRounding();
+    }
+    if (balanced || rounded) {
       report.converged = true;
-      report.rounded = !balanced;
+      report.rounded = rounded;
       return report;
     }
     report.stalled = still;

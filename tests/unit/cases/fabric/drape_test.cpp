@@ -144,6 +144,22 @@ TEST(Drape, StartsTurnThePattern) {
   EXPECT_NEAR(a.coefficient, b.coefficient, 0.1);
 }
 
+// What a disc does depends on B/(w R^3) and A/(w R) alone: of half the size, with an eighth of B and half of A and G
+// under the same weight per area, it takes the same folds and has the same shadow.
+TEST(Drape, LimpDiscsAreAlikeAtEverySize) {
+  useThreads(1);
+  const double B = 2e-5;
+  Fabric half = evenCloth(B / 8, 0.2);
+  for (double* modulus : {&half.young_weft_Pa, &half.young_warp_Pa, &half.shear_Pa}) *modulus /= 2;
+  const Draped a = laboratory::drape(evenCloth(B, 0.2), ring(8, 2)),
+               b = laboratory::drape(half, ring(8, 2), {.specimen_m = 0.15, .support_m = 0.09});
+  EXPECT_LT(a.coefficient, 0.95);
+  EXPECT_GE(a.nodes, 2);
+  EXPECT_EQ(b.nodes, a.nodes);
+  EXPECT_NEAR(b.coefficient, a.coefficient, 1e-5);
+  EXPECT_NEAR(lowest(b), 0.5 * lowest(a), 1e-6);
+}
+
 TEST(Drape, SofterClothFoldsAndHasLessShadow) {
   useThreads(1);
   double before = 1;

@@ -85,6 +85,19 @@ TEST(StaticPath, CorrectionsThatAreRoundingBalanceNothing) {
   EXPECT_NE(report.why.find("corrections are rounding"), std::string::npos) << report.why;
 }
 
+/// The scratch of a solve that went astray holds a tangent of 1e20: by it all forces of a soft spring would be
+/// rounding, and the start its equilibrium. So a draped disc stood still with 78 % of its weight unbalanced.
+TEST(StaticPath, WhatIsRoundingIsSaidByTheTangentAtHand) {
+  SmallSystem s = linearSystem(Eigen::MatrixXd::Constant(1, 1, 2), Eigen::VectorXd::Constant(1, 3));
+  PathState state(s);
+  state.K.values = {1e20};
+  EquilibriumAt at(s, 1);
+  const NewtonReport n = solveNewton(at, {}, state.y, state.K, state.solver);
+  EXPECT_TRUE(n.converged);
+  EXPECT_FALSE(n.rounded);
+  EXPECT_NEAR(state.y[0], 1.5, 1e-12);
+}
+
 /// Two unknowns tied by a spring of 1e9: its forces, and so the balance, are rounded to 1e-7, which is more than the
 /// tolerance asks. Accepted, and said.
 TEST(StaticPath, WhatConvergesToRoundingSaysSo) {
