@@ -16,9 +16,9 @@ std::array<Vec3, 2> boxOf(std::span<const Vec3> x, double margin_m) {
   return box;
 }
 
-Camera fitCamera(const Scene& scene, const PixelRect& free) {
+Camera fitCamera(const Scene& scene, const Viewpoint& from, const PixelRect& free) {
   Camera camera;
-  camera.axes = axesOf(scene.view, scene.up);
+  camera.axes = axesOf(from, scene.up);
   constexpr double inf = std::numeric_limits<double>::infinity();
   Vec3 low{inf, inf, inf}, high{-inf, -inf, -inf};
   const auto include = [&](const Vec3& x) {

@@ -9,7 +9,14 @@ namespace gambeson {
 struct CameraAxes {
   Vec3 right, up, towards;
 };
-CameraAxes axesOf(View view, const Vec3& up);
+/// From where a picture is taken: `azimuth_deg` turns from the body's front to its left, `elevation_deg` rises from the
+/// horizon to `up`. A named view is one.
+struct Viewpoint {
+  double azimuth_deg = 0, elevation_deg = 0;
+  Viewpoint(double azimuth, double elevation) : azimuth_deg(azimuth), elevation_deg(elevation) {}
+  Viewpoint(View view);
+};
+CameraAxes axesOf(const Viewpoint& view, const Vec3& up);
 
 /// A rectangle of the picture in pixels, y downwards.
 struct PixelRect {
@@ -35,7 +42,7 @@ struct Camera {
   }
 };
 
-/// Fits the focus, or every vertex and arrow, into `free` with a margin.
-Camera fitCamera(const Scene& scene, const PixelRect& free);
+/// Fits the scene's focus, or every vertex and arrow, into `free` with a margin.
+Camera fitCamera(const Scene& scene, const Viewpoint& from, const PixelRect& free);
 
 }  // namespace gambeson

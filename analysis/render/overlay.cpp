@@ -12,7 +12,8 @@ namespace gambeson {
 namespace {
 
 constexpr Color kInk{0.13f, 0.14f, 0.17f}, kSoftInk{0.36f, 0.38f, 0.43f};
-constexpr double kLine = 1.35;  ///< of the font's size
+constexpr double kLine = 1.35;    ///< of the font's size
+constexpr double kSwatch = 1.45;  ///< of the font's size: a square of colour and its gap, before a note
 
 double unitOf(int width, int height) { return std::clamp(std::sqrt(double(width) * height) / 1100, 0.62, 4.0); }
 double ease(double t) {
@@ -47,10 +48,11 @@ struct Shown {
 };
 
 /// None where the picture has no room beside them.
-std::optional<Overlay> layOut(const Scene& scene, const Fonts& fonts, int width, int height, const Shown& shown) {
+std::optional<Overlay> layOut(const Scene& scene, const Shot& shot, const Fonts& fonts, int width, int height,
+                              const Shown& shown) {
   Overlay o;
   const double u = o.unit = unitOf(width, height), m = o.margin = 34 * u;
-  const bool heading = shown.heading && (!scene.title.empty() || !scene.subtitle.empty()),
+  const bool heading = shown.heading && (!scene.title.empty() || !scene.subtitle.empty() || shot.note),
              legend = shown.legend && hasLegend(scene), bar = shown.bar && scene.bar.has_value();
   o.free = {0, 0, double(width), double(height)};
   if (!heading && !legend && !bar) return o;
@@ -59,10 +61,11 @@ std::optional<Overlay> layOut(const Scene& scene, const Fonts& fonts, int width,
   if (heading) {
     o.title = fonts.title.wrap(scene.title, column);
     o.subtitle = fonts.text.wrap(scene.subtitle, column);
+    if (shot.note) o.note = fonts.text.wrap(shot.note->words, column - kSwatch * fonts.text.size());
   }
   const double title_h = kLine * fonts.title.size() * double(o.title.size()) +
-                         kLine * fonts.text.size() * double(o.subtitle.size()) +
-                         (o.title.empty() || o.subtitle.empty() ? 0 : 6 * u);
+                         kLine * fonts.text.size() * double(o.subtitle.size() + o.note.size()) +
+                         (o.title.empty() || o.subtitle.empty() ? 0 : 6 * u) + (o.note.empty() ? 0 : 6 * u);
   o.block_title = {m, m, m + column, m + (heading ? title_h : 0)};
 
   const double bar_w = o.wide ? column - 20 * u : legend ? 0.56 * column : std::min(column, 620 * u);
@@ -95,10 +98,10 @@ std::optional<Overlay> layOut(const Scene& scene, const Fonts& fonts, int width,
 
 }  // namespace
 
-Overlay layOut(const Scene& scene, const Fonts& fonts, int width, int height) {
+Overlay layOut(const Scene& scene, const Shot& shot, const Fonts& fonts, int width, int height) {
   for (const Shown& shown : {Shown{}, Shown{false, true, true}, Shown{false, false, true}})
-    if (const auto o = layOut(scene, fonts, width, height, shown)) return *o;
-  return *layOut(scene, fonts, width, height, {false, false, false});
+    if (const auto o = layOut(scene, shot, fonts, width, height, shown)) return *o;
+  return *layOut(scene, shot, fonts, width, height, {false, false, false});
 }
 
 float fadeAt(const Overlay& o, double x, double y) {
@@ -110,8 +113,8 @@ float fadeAt(const Overlay& o, double x, double y) {
   return static_cast<float>(f);
 }
 
-void drawOverlay(Image& image, const Scene& scene, const Overlay& o, const Fonts& fonts, const ColorTable& colors,
-                 Beyond beyond) {
+void drawOverlay(Image& image, const Scene& scene, const Shot& shot, const Overlay& o, const Fonts& fonts,
+                 const ColorTable& colors, Beyond beyond) {
   const double u = o.unit;
   double y = o.block_title.top;
   for (const auto& line : o.title) {
@@ -121,6 +124,15 @@ void drawOverlay(Image& image, const Scene& scene, const Overlay& o, const Fonts
   if (!o.title.empty()) y += 6 * u;
   for (const auto& line : o.subtitle) {
     fonts.text.draw(image, o.block_title.left, y + fonts.text.size(), line, kSoftInk);
+    y += kLine * fonts.text.size();
+  }
+  if (!o.note.empty()) {
+    y += 6 * u;
+    const double side = 0.85 * fonts.text.size(), left = o.block_title.left, top = y + fonts.text.size() - 0.8 * side;
+    fillRect(image, left, top, left + side, top + side, shot.note->color);
+  }
+  for (const auto& line : o.note) {
+    fonts.text.draw(image, o.block_title.left + kSwatch * fonts.text.size(), y + fonts.text.size(), line, kSoftInk);
     y += kLine * fonts.text.size();
   }
   if (scene.bar && o.bar.width() > 0) {

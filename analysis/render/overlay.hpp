@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "analysis/render/camera.hpp"
 #include "analysis/render/colormap.hpp"
+#include "analysis/render/shot.hpp"
 #include "analysis/render/text.hpp"
 
 namespace gambeson {
@@ -18,9 +18,9 @@ struct Beyond {
 
 struct Overlay {
   PixelRect free;  ///< for the scene
-  std::vector<std::string> title, subtitle, bar_title;
+  std::vector<std::string> title, subtitle, note, bar_title;
   double margin = 0, unit = 1;  ///< unit: 1 at 1100 x 1100 pixels
-  PixelRect block_title;        ///< title and subtitle
+  PixelRect block_title;        ///< title, subtitle and note
   PixelRect bar;                ///< the bar itself, without its pointed ends
   PixelRect legend;             ///< text and arrow
   bool wide = false;
@@ -32,14 +32,14 @@ struct Fonts {
 /// Fonts for a picture of this size.
 Fonts loadFonts(int width, int height);
 
-Overlay layOut(const Scene& scene, const Fonts& fonts, int width, int height);
+Overlay layOut(const Scene& scene, const Shot& shot, const Fonts& fonts, int width, int height);
 
 /// The bar's range as drawn: see ColorBar. Throws RunError where it is not finite or high < low.
 ColorBar effective(const ColorBar& bar);
 
-/// Draws title, bar and the legend's text (its arrow is drawn in the arrows' pass).
-void drawOverlay(Image& image, const Scene& scene, const Overlay& overlay, const Fonts& fonts, const ColorTable& colors,
-                 Beyond beyond);
+/// Draws title, note, bar and the legend's text (its arrow is drawn in the arrows' pass).
+void drawOverlay(Image& image, const Scene& scene, const Shot& shot, const Overlay& overlay, const Fonts& fonts,
+                 const ColorTable& colors, Beyond beyond);
 
 /// 1 where the scene shows in full, falling to 0 in the texts' zones.
 float fadeAt(const Overlay& overlay, double x, double y);

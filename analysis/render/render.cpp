@@ -6,6 +6,7 @@
 
 #include "analysis/render/overlay.hpp"
 #include "analysis/render/passes.hpp"
+#include "analysis/render/shot.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {
@@ -80,10 +81,10 @@ void compose(const Passes& passes, const Strip& strip, const Overlay& overlay, b
   }
 }
 
-Beyond beyondOf(const Scene& scene, const ColorBar& bar) {
+Beyond beyondOf(const Scene& scene, const Shot& shot, const ColorBar& bar) {
   // The ends themselves are within; a millionth of the range takes up rounding.
   const double slack = 1e-6 * (bar.high - bar.low);
-  Beyond b;
+  Beyond b{shot.below, shot.above};
   for (const auto& mesh : scene.meshes)
     for (const double s : mesh.scalars) b.below |= s<bar.low - slack, b.above |= s> bar.high + slack;
   return b;
@@ -91,9 +92,8 @@ Beyond beyondOf(const Scene& scene, const ColorBar& bar) {
 
 bool finite(const Vec3& a) { return std::isfinite(norm2(a)); }
 
-}  // namespace
-
-Image render(const Scene& scene, int width, int height) {
+/// Throws RunError where it cannot be drawn.
+void check(const Scene& scene, int width, int height) {
   if (width < 16 || height < 16 || width > 8192 || height > 8192)
     throw RunError("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
                    " pixels is outside 16 .. 8192");
@@ -102,12 +102,30 @@ Image render(const Scene& scene, int width, int height) {
   for (std::size_t i = 0; i < scene.arrows.size(); ++i)
     if (!finite(scene.arrows[i].from) || !finite(scene.arrows[i].to))
       throw RunError("cannot draw arrow " + std::to_string(i) + ": it is not finite");
+}
+
+}  // namespace
+
+Camera fitted(const Scene& scene, const Shot& shot, int width, int height) {
+  check(scene, width, height);
+  Camera camera = fitCamera(scene, shot.from, layOut(scene, shot, loadFonts(width, height), width, height).free);
+  camera.pixels_per_m *= shot.zoom;
+  return camera;
+}
+
+Image render(const Scene& scene, int width, int height) {
+  const Shot shot{scene.view};
+  return render(scene, shot, fitted(scene, shot, width, height), width, height);
+}
+
+Image render(const Scene& scene, const Shot& shot, const Camera& camera, int width, int height) {
+  check(scene, width, height);
   const ColorBar bar = scene.bar ? effective(*scene.bar) : ColorBar{};
   const Fonts fonts = loadFonts(width, height);
-  const Overlay overlay = layOut(scene, fonts, width, height);
+  const Overlay overlay = layOut(scene, shot, fonts, width, height);
 
   PassInput in;
-  in.camera = fitCamera(scene, overlay.free);
+  in.camera = camera;
   in.colors = makeColorTable();
   const double pixel_m = 1 / in.camera.pixels_per_m;
   in.arrow_radius_m = 3.2 * overlay.unit * pixel_m;
@@ -136,7 +154,7 @@ Image render(const Scene& scene, int width, int height) {
     compose(drawPasses(in, width, strip.drawn_to - strip.drawn_from), strip, overlay,
             scene.focus.has_value() || scene.ground_m.has_value(), image);
   }
-  drawOverlay(image, scene, overlay, fonts, in.colors, scene.bar ? beyondOf(scene, bar) : Beyond{});
+  drawOverlay(image, scene, shot, overlay, fonts, in.colors, scene.bar ? beyondOf(scene, shot, bar) : Beyond{});
   return image;
 }
 

@@ -1,6 +1,6 @@
 /// Detail of render.hpp and camera.hpp: the views, and where they look from.
 
-#include <cassert>
+#include <cmath>
 
 #include "analysis/render/camera.hpp"
 #include "analysis/render/render.hpp"
@@ -10,36 +10,14 @@ namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 /// Of the views from a corner; `above` is for what lies flat.
-constexpr double kElevation_rad = 12 * kDegree, kAbove_rad = 45 * kDegree;
+constexpr double kCorner_deg = 12, kAbove_deg = 45;
 
-/// Where a view looks from, in the body's frame: front, left, up.
-Vec3 towardsViewer(View view) {
-  switch (view) {
-    case View::front:
-      return {1, 0, 0};
-    case View::back:
-      return {-1, 0, 0};
-    case View::left:
-      return {0, 1, 0};
-    case View::right:
-      return {0, -1, 0};
-    case View::top:
-      return {0, 0, 1};
-    case View::front_left:
-      return {1, 1, 0};
-    case View::front_right:
-    case View::above:
-      return {1, -1, 0};
-    case View::back_left:
-      return {-1, 1, 0};
-    case View::back_right:
-      return {-1, -1, 0};
-  }
-  assert(false);
-  return {1, 0, 0};
+/// Exact at right angles, so that views along an axis are.
+double sinOf(double angle_deg) {
+  const double a = std::remainder(angle_deg, 360);
+  return a == 0 || std::abs(a) == 180 ? 0 : std::sin(a * kDegree);
 }
-
-bool isElevated(View view) { return norm2(towardsViewer(view)) > 1.5; }
+double cosOf(double angle_deg) { return sinOf(angle_deg + 90); }
 
 }  // namespace
 
@@ -55,22 +33,49 @@ std::optional<View> viewByName(const std::string& name) {
   return std::nullopt;
 }
 
-CameraAxes axesOf(View view, const Vec3& up_W) {
+Viewpoint::Viewpoint(View view) {
+  switch (view) {
+    case View::front:
+      break;
+    case View::back:
+      azimuth_deg = 180;
+      break;
+    case View::left:
+      azimuth_deg = 90;
+      break;
+    case View::right:
+      azimuth_deg = -90;
+      break;
+    case View::top:
+      azimuth_deg = 180, elevation_deg = 90;  // the front is up in the picture
+      break;
+    case View::front_left:
+      azimuth_deg = 45, elevation_deg = kCorner_deg;
+      break;
+    case View::front_right:
+      azimuth_deg = -45, elevation_deg = kCorner_deg;
+      break;
+    case View::back_left:
+      azimuth_deg = 135, elevation_deg = kCorner_deg;
+      break;
+    case View::back_right:
+      azimuth_deg = -135, elevation_deg = kCorner_deg;
+      break;
+    case View::above:
+      azimuth_deg = -45, elevation_deg = kAbove_deg;
+      break;
+  }
+}
+
+CameraAxes axesOf(const Viewpoint& view, const Vec3& up_W) {
   const Vec3 up = normalized(up_W);
   const Vec3 ahead = std::abs(up.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 0, 1};
   const Vec3 front = normalized(ahead - dot(ahead, up) * up);
   const Vec3 left = cross(up, front);
-  const Vec3 b = normalized(towardsViewer(view));
+  const Vec3 level = cosOf(view.azimuth_deg) * front + sinOf(view.azimuth_deg) * left;
   CameraAxes axes;
-  axes.towards = b.x * front + b.y * left + b.z * up;
-  if (view == View::top) {
-    axes.up = front;
-  } else {
-    const double e = view == View::above ? kAbove_rad : isElevated(view) ? kElevation_rad : 0;
-    const Vec3 level = axes.towards;
-    axes.towards = std::cos(e) * level + std::sin(e) * up;
-    axes.up = std::cos(e) * up - std::sin(e) * level;
-  }
+  axes.towards = cosOf(view.elevation_deg) * level + sinOf(view.elevation_deg) * up;
+  axes.up = cosOf(view.elevation_deg) * up - sinOf(view.elevation_deg) * level;
   axes.right = cross(axes.up, axes.towards);
   return axes;
 }

@@ -1,5 +1,7 @@
 #include "cases/command/arguments.hpp"
 
+#include <map>
+
 #include "cases/cloth/kind_fields.hpp"
 #include "cases/runs/options.hpp"
 #include "cases/runs/picture.hpp"
@@ -190,8 +192,15 @@ void addImport(CLI::App& app, ImportArguments& a) {
 }
 
 void addRender(CLI::App& app, RenderArguments& a) {
-  CLI::App& render = *app.add_subcommand("render", "Takes a picture of recorded results");
-  render.add_option("RESULTS", a.options.results, "Folder that gambeson run left")->type_name("")->required();
+  CLI::App& render = *app.add_subcommand("render", "Takes a picture or a film of recorded results");
+  render
+      .add_option("RESULTS", a.request.results,
+                  "Folders that gambeson run left; up to four are shown beside each other")
+      ->type_name("")
+      ->required();
+  render.add_option("-o,--output", a.request.output, "What to write: a picture (.png) or a film (.mp4, .webm, .gif)")
+      ->type_name("FILE")
+      ->required();
   render
       .add_option(
           "--field", a.field,
@@ -201,19 +210,34 @@ void addRender(CLI::App& app, RenderArguments& a) {
       ->capture_default_str();
   render
       .add_option("--time", a.time,
-                  "A time such as 1.2 or \"1200 ms\" (static: a load factor, modal: a mode); or peak (largest joint "
-                  "torque) or end")
-      ->type_name("TIME")
-      ->capture_default_str();
+                  "Of a picture: a time such as 1.2 or \"1200 ms\" (static: a load factor, modal: a mode); or peak "
+                  "(largest joint torque) or end [end]")
+      ->type_name("TIME");
+  const std::map<std::string, std::pair<const char*, const char*>> about{
+      {"from", {"TIME", "Of a film: where it begins [the motion's start]"}},
+      {"to", {"TIME", "Of a film: where it ends [the last frame]"}},
+      {"fps", {"NUMBER", "Of a film: frames a second, each the nearest recorded one [as recorded, at most 30]"}},
+      {"azimuth", {"ANGLE", "From where, in degrees from the front to the left of the body, in place of the view's"}},
+      {"elevation", {"ANGLE", "From where, in degrees above the horizon, in place of the view's"}},
+      {"zoom", {"NUMBER", "How much larger than what frames the garments (0.5: half as large) [1]"}}};
+  for (auto& [name, text] : a.numbers)
+    render.add_option(std::string("--") + name, text, about.at(name).second)->type_name(about.at(name).first);
+  render.add_flag("--follow", a.request.follow, "Of a film: the camera goes along with the pelvis");
+  render.add_option("--range", a.range, "Ends of the colours in the unit of their bar [0 and 99 % of the motion]")
+      ->type_name("LOW HIGH")
+      ->expected(2);
   render.add_option("--view", a.view, "From where: " + schema::joined(viewNames()))
       ->type_name("VIEW")
       ->capture_default_str();
   render.add_option("--size", a.size, "Pixels, width x height")->type_name("WxH")->capture_default_str();
-  render.add_option("-o,--output", a.options.png, "Picture to write (.png)")->type_name("PNG")->required();
   render.footer(
       "Examples:\n"
       "  gambeson render results/shorts_walk -o peak.png --time peak\n"
-      "  gambeson render results/shorts_walk -o back.png --field pressure --view back --time 1.35 --size 1920x1080");
+      "  gambeson render results/shorts_walk -o back.png --field pressure --view back --time 1.35 --size 1920x1080\n"
+      "  gambeson render results/shorts_walk -o walk.mp4 --follow --size 960x720\n"
+      "  gambeson render results/shorts_walk -o knee.webm --from 0.4 --to 1 --azimuth 70 --elevation 5 --zoom 2 "
+      "--range 0 300\n"
+      "  gambeson render results/thin results/thick -o both.gif --field pressure --size 960x540 --fps 10");
 }
 
 void addReport(CLI::App& app, ReportOptions& options) {

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "cases/pattern/import.hpp"
 #include "cases/study/run.hpp"
 #include "cases/verify/verify.hpp"
+#include "cases/wear/results/film.hpp"
 #include "cases/wear/run/export.hpp"
 #include "cases/wear/run/run.hpp"
 #include "cases/wear/run/together.hpp"
@@ -44,8 +46,13 @@ struct DraftArguments {
 };
 
 struct RenderArguments {
-  RenderOptions options;
-  std::string field = "stress", time = "end", view = "front_right", size = "1280x960";
+  FilmRequest request;
+  std::string field = "stress", view = "front_right", size = "1280x960";
+  std::optional<std::string> time;
+  /// Of those that are given: what schema::filmTable reads.
+  std::vector<std::pair<const char*, std::optional<std::string>>> numbers{
+      {"from", {}}, {"to", {}}, {"fps", {}}, {"azimuth", {}}, {"elevation", {}}, {"zoom", {}}};
+  std::vector<double> range;
 };
 
 struct ExportArguments {

@@ -17,6 +17,7 @@
 #include "cases/command/check_file.hpp"
 #include "cases/command/documents.hpp"
 #include "cases/fabric/run.hpp"
+#include "cases/film/film.hpp"
 #include "cases/input/message.hpp"
 #include "cases/input/mistakes.hpp"
 #include "cases/input/overrides.hpp"
@@ -289,13 +290,32 @@ void writeTables(const std::filesystem::path& folder, bool must, std::ostream& o
   out << fmt::format("{} tables with decimal commas: {}\n", tables.size(), tables.front().parent_path().string());
 }
 
+/// What films, free cameras and several runs ask for, and pictures of structures and cells do not have.
+void refuseFilm(const RenderArguments& a) {
+  const auto refuse = [](const std::string& option) {
+    throw InputError(
+        {"command line", 0, option},
+        "is for worn cloth; of structures and cells there are pictures (.png) of one folder, with --field, "
+        "--time, --view and --size");
+  };
+  if (a.request.results.size() > 1) refuse("RESULTS");
+  if (FilmFormat format{}; isFilmFile(a.request.output, format)) refuse("--output");
+  for (const auto& [name, text] : a.numbers)
+    if (text) refuse(std::string("--") + name);
+  if (a.request.follow) refuse("--follow");
+  if (!a.range.empty()) refuse("--range");
+}
+
 /// A picture's options go through the same table as the pictures of a case.
 int render(RenderArguments& a) {
-  checkEnding(a.options.png, "--output", {".png"});
-  JsonNode node;
-  node.type = JsonNode::Type::object;
+  FilmRequest& request = a.request;
+  const bool film = checkEnding(request.output, "--output", {".png", ".mp4", ".webm", ".gif"}) != ".png";
+  if (film && a.time)
+    throw InputError({"command line", 0, "--time"}, "is for pictures (.png); a film has --from and --to");
+  JsonNode node, numbers;
+  node.type = numbers.type = JsonNode::Type::object;
   overrideValue(node, "field", a.field);
-  overrideValue(node, "time", a.time);
+  overrideValue(node, "time", a.time.value_or("end"));
   overrideValue(node, "view", a.view);
   const std::size_t x = a.size.find('x');
   if (x == std::string::npos)
@@ -303,18 +323,25 @@ int render(RenderArguments& a) {
                      fmt::format("\"{}\" is not a size; allowed: such as 1280x960", a.size));
   overrideValue(node, "width", a.size.substr(0, x));
   overrideValue(node, "height", a.size.substr(x + 1));
-  PictureCase picture;
+  for (const auto& [name, text] : a.numbers)
+    if (text) overrideValue(numbers, name, *text);
   const std::string none;
-  schema::readObject(schema::pictureTable(), {node, "", none}, &picture);
-  a.options.field = picture.field;
-  a.options.when = picture.when;
-  a.options.time_s = picture.time_s;
-  a.options.view = picture.view;
-  a.options.width = picture.width;
-  a.options.height = picture.height;
-  checkOutput(a.options.png, "--output", recordedFiles(a.options.results));
-  if (holdsCell(a.options.results)) return renderCellResults(a.options);
-  return holdsStructure(a.options.results) ? renderStructureResults(a.options) : renderResults(a.options);
+  schema::readObject(schema::pictureTable(), {node, "", none}, &request.picture);
+  schema::readObject(schema::filmTable(), {numbers, "", none}, &request);
+  if (!a.range.empty()) request.range = {a.range[0], a.range[1]};
+  Paths recorded;
+  for (const std::filesystem::path& results : request.results)
+    for (const std::filesystem::path& file : recordedFiles(results)) recorded.push_back(file);
+  checkOutput(request.output, "--output", recorded);
+  const auto isOther = [](const std::filesystem::path& results) {
+    return holdsCell(results) || holdsStructure(results);
+  };
+  const auto other = std::find_if(request.results.begin(), request.results.end(), isOther);
+  if (other == request.results.end()) return renderFilm(request);
+  refuseFilm(a);
+  const PictureCase& p = request.picture;
+  const RenderOptions options{*other, request.output, p.field, p.when, p.time_s, p.view, p.width, p.height};
+  return holdsCell(*other) ? renderCellResults(options) : renderStructureResults(options);
 }
 
 }  // namespace
@@ -400,8 +427,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
              {dress_arguments.output, "--output"},
              {draft_arguments.file, "CASE"},
              {draft_arguments.garment_file, "--output"},
-             {render_arguments.options.results, "RESULTS"},
-             {render_arguments.options.png, "--output"},
+             {render_arguments.request.output, "--output"},
              {report_options.results, "RESULTS"},
              {report_options.html, "--output"},
              {fabric_arguments.options.card, "CARD"},
@@ -430,6 +456,10 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
         subject = path.string();
     }
     for (const std::filesystem::path& file : batch_arguments.cases) checkPath(file, "CASE");
+    for (const std::filesystem::path& folder : render_arguments.request.results) {
+      checkPath(folder, "RESULTS");
+      subject = folder.string();
+    }
     if (app.got_subcommand("run")) return run(run_arguments);
     if (app.got_subcommand("dress")) return dressCase(dress_arguments);
     if (app.got_subcommand("check")) return check(check_arguments, out);

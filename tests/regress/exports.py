@@ -228,7 +228,7 @@ def opensim(results, folder, glb):
 
 def formats(results, folder):
     for words, ending in ((["export", results, "-o", "walk.mp4"], ".mp4"), (["export", results, "-o", "walk"], "walk"),
-                          (["render", results, "-o", "walk.mp4"], ".mp4"), (["render", results, "-o", "picture.glb"], ".glb"),
+                          (["render", results, "-o", "walk.avi"], ".avi"), (["render", results, "-o", "picture.glb"], ".glb"),
                           (["report", results, "-o", "page.pdf"], ".pdf"),
                           (["draft", results / "case.json", "-o", "garment.stl"], ".stl"),
                           (["draft", results / "case.json", "-o", "garment"], "garment"),

@@ -22,7 +22,7 @@ constexpr double kReach = 1.9;
 constexpr int kSectors = 36, kMissing = 2;
 
 /// In a plane's axes, where the plane of the same zone of the other side is: cloth nearer to there is the other limb's.
-std::optional<Vec2> otherSide(const std::vector<GirthPlane>& planes, const GirthPlane& mine) {
+std::optional<Vec2> otherLimb(const std::vector<GirthPlane>& planes, const GirthPlane& mine) {
   const std::string left = "_left", right = "_right";
   std::string other = mine.zone;
   if (other.ends_with(left))
@@ -77,7 +77,7 @@ std::vector<GirthMeasure> girthsAt(const Scenario& s, const std::vector<Vec3>& x
   std::vector<GirthMeasure> girths;
   const std::vector<GirthPlane> planes = girthPlanes(*s.human, std::span(poses).first(links));
   for (const GirthPlane& plane : planes) {
-    const std::optional<Vec2> other = otherSide(planes, plane);
+    const std::optional<Vec2> other = otherLimb(planes, plane);
     const std::vector<Vec2> section = bodySection(*s.human, plane, std::span(poses).first(links), skin);
     const double body = tapeGirth(section);
     if (!(body > 0)) continue;

@@ -7,52 +7,15 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/render/camera.hpp"
-#include "analysis/render/shapes.hpp"
 #include "analysis/ticks.hpp"
 #include "cases/wear/results/body_map.hpp"
 #include "cases/wear/results/force_clusters.hpp"
-#include "cases/wear/results/shown.hpp"
+#include "cases/wear/results/frame_scenes.hpp"
 #include "cases/wear/results/write.hpp"
-#include "cases/wear/scene/placed_bodies.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {
 namespace {
-
-constexpr Color arrow_color{0.80f, 0.08f, 0.10f};
-/// Forces that point this much at the viewer press on the far side: the picture would show them through the body.
-constexpr double far_side = 0.3;
-
-std::vector<Vec3> positionsOf(const Frame& frame) {
-  std::vector<Vec3> x(frame.positions.size() / 3);
-  for (std::size_t i = 0; i < x.size(); ++i)
-    x[i] = {frame.positions[3 * i], frame.positions[3 * i + 1], frame.positions[3 * i + 2]};
-  return x;
-}
-
-Vec3 upOf(const Scenario& s) {
-  const Vec3 g = s.model->environment.gravity_m_per_s2;
-  return norm(g) > 0 ? -1.0 / norm(g) * g : Vec3{0, 0, 1};
-}
-
-/// Arrows end where the body is pushed, so that they stay outside of it; one of `most_N` is `longest_m` long. They
-/// have a legend where there are any, which says what they push `on`.
-void addArrows(Scene& scene, const std::vector<ForceCluster>& clusters, double most_N, double longest_m,
-               const char* on) {
-  if (!(most_N > 0)) return;
-  const double m_per_N = longest_m / most_N;
-  const Vec3 towards = axesOf(scene.view, scene.up).towards;
-  for (const ForceCluster& c : clusters) {
-    if (norm(c.force) < kLeastArrow * most_N || dot(c.force, towards) > far_side * norm(c.force)) continue;
-    const Vec3 tip = c.middle();
-    scene.arrows.push_back({tip - m_per_N * c.force, tip, arrow_color});
-  }
-  if (scene.arrows.empty()) return;
-  const double legend_N = roundedUp(0.5 * most_N);
-  scene.arrow_legend = fmt::format("{0:g} N on {1:g} x {1:g} cm of {2}", legend_N, 100 * kArrowCell_m, on);
-  scene.arrow_legend_length_m = legend_N * m_per_N;
-}
 
 /// Beyond the garment on every side.
 double marginOf(double size_m) { return 0.06 * size_m; }
@@ -64,6 +27,24 @@ double percentile99(const std::vector<double>& values, const std::vector<double>
 /// A small thick part is what a picture of the thickness is for, so the colours reach the largest.
 double largestShown(const std::vector<double>& values, double unit) {
   return values.empty() ? 0 : roundedUp(unit * *std::max_element(values.begin(), values.end())) / unit;
+}
+
+/// "the front right", "above".
+std::string wordsOf(View view) {
+  std::string words = viewNames()[static_cast<std::size_t>(view)];
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return view == View::above ? words : "the " + words;
+}
+
+/// "30\u00b0 to the left of the front, 10\u00b0 up".
+std::string wordsOf(const Viewpoint& from) {
+  std::string words = "the front";
+  if (from.azimuth_deg != 0)
+    words = fmt::format("{:g}\u00b0 to the {} of the front", std::abs(from.azimuth_deg),
+                        from.azimuth_deg > 0 ? "left" : "right");
+  if (from.elevation_deg != 0)
+    words += fmt::format(", {:g}\u00b0 {}", std::abs(from.elevation_deg), from.elevation_deg > 0 ? "up" : "down");
+  return words;
 }
 
 }  // namespace
@@ -121,19 +102,18 @@ PictureScale scaleOf(const Scenario& s, const RecordingReader& recording, int in
   return scale;
 }
 
-std::string captionOf(const PictureCase& picture, double time_s, double sensor_m) {
-  std::string view = viewNames()[static_cast<std::size_t>(picture.view)];
-  std::replace(view.begin(), view.end(), '_', ' ');
+std::string captionOf(const PictureCase& picture, double time_s, double sensor_m,
+                      const std::optional<Viewpoint>& from) {
+  const std::string view = from ? wordsOf(*from) : wordsOf(picture.view);
   std::string what = fieldWords(picture.field).word;
   what[0] = static_cast<char>(what[0] - 'a' + 'A');
   if (picture.field == PictureField::body_pressure)
-    return fmt::format("{} (the mean over {:g} mm), at each place over the motion, seen from {}{}; posture at {:.2f} s",
-                       what, 1e3 * sensor_m, picture.view == View::above ? "" : "the ", view, time_s);
+    return fmt::format("{} (the mean over {:g} mm), at each place over the motion, seen from {}; posture at {:.2f} s",
+                       what, 1e3 * sensor_m, view, time_s);
   if (picture.field == PictureField::pressure)
     what += fmt::format(" (comfort goes by the mean over {:g} mm)", 1e3 * sensor_m);
-  return fmt::format("{} at {:.2f} s{}, seen from {}{}", what, time_s,
-                     picture.when == PictureTime::peak ? " (the peak)" : "", picture.view == View::above ? "" : "the ",
-                     view);
+  return fmt::format("{} at {:.2f} s{}, seen from {}", what, time_s,
+                     picture.when == PictureTime::peak ? " (the peak)" : "", view);
 }
 
 int frameOf(const RecordingReader& recording, const Measured& m, const PictureCase& picture) {
@@ -183,44 +163,9 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
                png);
     return;
   }
-  const Frame frame = recording.frame(index);
-  const std::vector<Vec3> x = positionsOf(frame);
-  const FieldWords words = fieldWords(picture.field);
-  Scene scene;
-  PlacedBodies placed(s);
-  placed.moveTo(frame.time_s);
-  for (std::size_t o = 0; o < s.model->obstacles.size(); ++o) {
-    if (s.stage->leavesOut(static_cast<int>(o), frame.time_s)) continue;
-    scene.meshes.push_back(meshOf(
-        s.model->obstacles[o].deforms ? Shape(placed.deformedMesh(static_cast<int>(o))) : s.model->obstacles[o].shape,
-        placed.placements()[o], kBodyColor));
-  }
-  const std::vector<double> scalars = shownOf(s, frame, picture.field);
-  if (!scalars.empty()) {
-    // Friction falls from 100 % of new cloth: its least is what tells.
-    const bool falls = picture.field == PictureField::friction;
-    const auto [least, most] = std::minmax_element(scalars.begin(), scalars.end());
-    scene.bar = ColorBar{
-        fmt::format("{}; here {} {}", words.title, falls ? "down to" : "up to", formatBrief(falls ? *least : *most, 2)),
-        0, words.scale * scale.high};
-  }
-  for (const WornMesh& worn : wornMeshes(s)) {
-    RenderMesh cloth{{}, worn.triangles, {}, worn.color, true, {}};
-    for (const int sample : worn.samples) {
-      cloth.vertices.push_back(x[static_cast<std::size_t>(sample)]);
-      if (!scalars.empty()) cloth.scalars.push_back(scalars[static_cast<std::size_t>(sample)]);
-    }
-    scene.meshes.push_back(std::move(cloth));
-  }
-  const std::array<Vec3, 2> garment = boxOf(x, 0);
-  const Vec3 middle = 0.5 * (garment[0] + garment[1]);
-  addArrows(scene, forceClusters(placed, frame, x), scale.most_N, 0.14 * scale.size_m, s.human ? "body" : "obstacle");
-  scene.focus = {middle - 0.5 * scale.box_m, middle + 0.5 * scale.box_m};
-  scene.title = s.definition.name;
-  scene.subtitle = captionOf(picture, frame.time_s, s.definition.comfort.sensor_m);
-  scene.view = picture.view;
-  scene.up = upOf(s);
-  writePng(render(scene, picture.width, picture.height), png);
+  const DrawnFrame drawn = FrameScenes(s, recording).at(index, picture, picture.view, scale);
+  const Camera camera = fitted(drawn.scene, drawn.shot, picture.width, picture.height);
+  writePng(render(drawn.scene, drawn.shot, camera, picture.width, picture.height), png);
 }
 
 }  // namespace gambeson

@@ -218,16 +218,6 @@ void writeResults(const std::filesystem::path& dir) {
   if (!failures.empty()) throw RunError(failures.front() + " (the numbers and the report are in " + dir.string() + ")");
 }
 
-int renderResults(const RenderOptions& o) {
-  const auto [recording, scenario, facts] = recordedRun(o.results);
-  const PictureCase picture{o.when, o.time_s, o.field, o.view, o.width, o.height};
-  const int frame = frameOf(recording, measure(*scenario, recording), picture);
-  PictureScale scale = scaleOf(*scenario, recording, frame, o.field);
-  scale.high = std::max(scale.high, fieldRange(*scenario, recording, o.field));
-  renderFrame(*scenario, recording, frame, picture, scale, o.png);
-  return 0;
-}
-
 int reportResults(const ReportOptions& o) {
   const auto [recording, scenario, facts] = recordedRun(o.results);
   const Measured m = measureAll(*scenario, recording);

@@ -63,8 +63,7 @@ struct RecordedRun {
 /// is of another run.
 RecordedRun recordedRun(const std::filesystem::path& dir);
 
-/// What `gambeson render` and `gambeson report` do with a results folder. Both return the exit status.
-int renderResults(const RenderOptions& options);
+/// What `gambeson report` does with a results folder. Returns the exit status.
 int reportResults(const ReportOptions& options);
 
 /// Top of the colour bar of a field: the 99th percentile by area over the frames of the motion (all, where it has

@@ -1,6 +1,7 @@
 #pragma once
 /// The pieces of writeResults.
 
+#include "analysis/render/camera.hpp"
 #include "analysis/report/report.hpp"
 #include "cases/wear/results/measure.hpp"
 #include "cases/wear/results/results.hpp"
@@ -87,7 +88,8 @@ ReportInput reportInput(const Scenario& scenario, const Measured& measured, cons
 int frameOf(const RecordingReader& recording, const Measured& measured, const PictureCase& picture);
 
 /// "Stress in the fabric at 1.24 s, seen from the front right"; of pressures over which width they are a mean,
-/// ComfortCase::sensor_m on the body.
-std::string captionOf(const PictureCase& picture, double time_s, double sensor_m);
+/// ComfortCase::sensor_m on the body. `from`: in place of the picture's view.
+std::string captionOf(const PictureCase& picture, double time_s, double sensor_m,
+                      const std::optional<Viewpoint>& from = {});
 
 }  // namespace gambeson

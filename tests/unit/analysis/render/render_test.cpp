@@ -13,6 +13,7 @@
 #include "analysis/render/geometry.hpp"
 #include "analysis/render/overlay.hpp"
 #include "analysis/render/shapes.hpp"
+#include "analysis/render/shot.hpp"
 #include "core/error.hpp"
 
 namespace gambeson {
@@ -139,6 +140,49 @@ TEST(Render, AxesOfEveryViewAreRightHandedWhateverUpIs) {
   EXPECT_FALSE(viewByName("sideways"));
 }
 
+/// A free viewpoint turns about `up`: 90 degrees are the body's left, and what is named is among them to the last bit.
+TEST(Render, ViewpointsTurnFromTheFrontToTheLeft) {
+  const Vec3 up{0, 0, 1};
+  const auto near = [](const Vec3& a, const Vec3& b) { EXPECT_LT(norm(a - b), 1e-12); };
+  EXPECT_EQ(axesOf(Viewpoint{90, 0}, up).towards.y, axesOf(View::left, up).towards.y);
+  EXPECT_EQ(axesOf(View::left, up).towards.x, 0);
+  near(axesOf(Viewpoint{0, 0}, up).towards, {1, 0, 0});
+  near(axesOf(Viewpoint{30, 0}, up).towards, {std::sqrt(0.75), 0.5, 0});
+  near(axesOf(Viewpoint{0, 30}, up).towards, {std::sqrt(0.75), 0, 0.5});
+  near(axesOf(Viewpoint{0, 30}, up).up, {-0.5, 0, std::sqrt(0.75)});
+  near(axesOf(View::top, up).up, {1, 0, 0});  // the front is up in the picture
+}
+
+/// The same camera draws another scene in the same place; twice the zoom is twice the size about the middle.
+TEST(Render, ACameraStaysWhileTheSceneMoves) {
+  Scene scene;
+  scene.view = View::front;
+  scene.meshes.push_back({{{0, -1, -1}, {0, 1, -1}, {0, 0, 1}}, {{0, 1, 2}}, {}, {0.1f, 0.2f, 0.9f}, false, {}});
+  Shot shot{scene.view};
+  const Camera camera = fitted(scene, shot, 200, 200);
+  const Image image = render(scene, shot, camera, 200, 200);
+  EXPECT_EQ(image.rgb, render(scene, 200, 200).rgb);
+  scene.meshes[0].vertices[2].z = 0;  // the fit would be another
+  const Image lower = render(scene, shot, camera, 200, 200);
+  EXPECT_TRUE(isBlue(at(lower, 100, 150)));
+  EXPECT_FALSE(isBlue(at(lower, 100, 60)));
+  shot.zoom = 2;
+  EXPECT_DOUBLE_EQ(fitted(scene, shot, 200, 200).pixels_per_m,
+                   2 * fitted(scene, Shot{scene.view}, 200, 200).pixels_per_m);
+}
+
+/// What a colour of its own means stands in the legend, as a square of the colour.
+TEST(Render, ANoteShowsItsColour) {
+  Scene scene;
+  scene.title = "A garment";
+  const auto magenta = [](Rgb c) { return c.r > 200 && c.g < 60 && c.b > 100; };
+  Shot shot{scene.view};
+  EXPECT_EQ(countWhere(render(scene, shot, fitted(scene, shot, 640, 480), 640, 480), magenta), 0);
+  shot.note = ColorNote{{1, 0, 0.58f}, "inside the body by more than 0.2 mm"};
+  EXPECT_GT(countWhere(render(scene, shot, fitted(scene, shot, 640, 480), 640, 480), magenta), 60);
+  EXPECT_GT(countWhere(render(scene, shot, fitted(scene, shot, 300, 480), 300, 480), magenta), 30);
+}
+
 TEST(Render, NearerSurfaceHidesTheFartherOne) {
   Scene scene = focused(0.5);
   scene.meshes = {sphere({-0.3, 0, 0}, 0.15, kGreen), sphere({0.3, 0, 0}, 0.2, kBlue)};
@@ -153,7 +197,7 @@ TEST(Render, BarEndsHaveTheColoursOfTheMap) {
   scene.bar = ColorBar{"Stress [N/m]", 0, 10};
   const int w = 600, h = 700;
   const Image image = render(scene, w, h);
-  const Overlay o = layOut(scene, loadFonts(w, h), w, h);
+  const Overlay o = layOut(scene, Shot{scene.view}, loadFonts(w, h), w, h);
   const ColorTable table = makeColorTable();
   const int y = static_cast<int>(0.5 * (o.bar.top + o.bar.bottom));
   const auto same = [](Rgb got, Color want) {
@@ -201,13 +245,13 @@ TEST(Render, LegendArrowHasTheTrueLength) {
   scene.arrow_legend = "10 N";
   scene.arrow_legend_length_m = 0.2;
   const int w = 600, h = 700;
-  const Overlay o = layOut(scene, loadFonts(w, h), w, h);
+  const Overlay o = layOut(scene, Shot{scene.view}, loadFonts(w, h), w, h);
   const Image image = render(scene, w, h);
   int first = w, last = 0;
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x)
       if (isRed(at(image, x, y))) first = std::min(first, x), last = std::max(last, x);
-  EXPECT_NEAR(last + 1 - first, 0.2 * fitCamera(scene, o.free).pixels_per_m, 4);
+  EXPECT_NEAR(last + 1 - first, 0.2 * fitCamera(scene, scene.view, o.free).pixels_per_m, 4);
 }
 
 TEST(Render, TextsStandOnTheirPlaces) {

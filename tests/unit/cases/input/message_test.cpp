@@ -154,8 +154,8 @@ TEST(Message, WhatCannotBeSaidIsNoSuccess) {
 
 TEST(Message, NamesOfFilesSayWhatIsWritten) {
   const Folder folder;
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"render", "R", "-o", "x.mp4"},
-                                                {"render", "R", "-o", "x.gif"},
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"render", "R", "-o", "x.avi"},
+                                                {"render", "R", "-o", "x.mov"},
                                                 {"render", "R", "-o", "x.jpg"},
                                                 {"render", "R", "-o", "x"},
                                                 {"export", "R", "--iges", "a.step"},
