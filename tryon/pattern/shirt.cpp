@@ -3,16 +3,19 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <numbers>
 
 #include <fmt/format.h>
 
 #include "core/cloth/draft/part_seam.hpp"
+#include "human/files/units.hpp"
 #include "tryon/pattern/armour.hpp"
 #include "tryon/pattern/check.hpp"
 #include "tryon/pattern/fit.hpp"
 #include "tryon/pattern/sleeve.hpp"
 #include "tryon/pattern/strap.hpp"
+#include "tryon/pattern/turn.hpp"
 
 namespace gambeson {
 namespace {
@@ -240,6 +243,33 @@ void checkRoom(const Draft& d, const SleeveDraft& sleeve, const ShirtPattern& p,
       }
 }
 
+/// A sleeve and its strips.
+struct CutSleeve {
+  std::unique_ptr<SleeveDraft> draft;
+  std::array<NurbsPatch, 4> strips;
+};
+
+/// With cells under the arm that are twice as wide as others, or wider where a cell would fold else: those of the back
+/// do beside a thin arm below a wide armhole.
+CutSleeve cutSleeve(const ArmForm& arm, const std::array<ArmholePart, 4>& armhole, const ShirtPattern& p) {
+  constexpr double kMostTurn_deg = 95;
+  CutSleeve best;
+  double least = HUGE_VAL;
+  for (const double wider_under : {2.0, 2.5, 3.0, 3.5, 4.0}) {
+    CutSleeve cut{std::make_unique<SleeveDraft>(arm, armhole, p.cell_m, wider_under), {}};
+    const auto along = uniformKnots(p.degree, cut.draft->along());
+    double turn = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      cut.strips[k] = interpolate(uniformKnots(p.degree, armhole[k].cells), along,
+                                  [&](double s, double t) { return cut.draft->at(static_cast<int>(k), s, t); });
+      turn = std::max(turn, largestTurn(cut.strips[k]));
+    }
+    if (turn < least) least = turn, best = std::move(cut);
+    if (least <= kMostTurn_deg * rad_per_deg) break;
+  }
+  return best;
+}
+
 /// Both sleeves: strips of the left one beside each other, and their mirror images, sewn to the armholes.
 void addSleeves(Garment& g, const Draft& d, const ShirtPattern& p, const BodyForm& form, double layer_m,
                 std::span<const Worn> under) {
@@ -283,14 +313,12 @@ void addSleeves(Garment& g, const Draft& d, const ShirtPattern& p, const BodyFor
   for (const ArmholePart& part : armhole)
     for (const Vec3& x : part.points) fit.shoulder_y_m = std::min(fit.shoulder_y_m, x.y);
   const ArmForm arm(form, fit, under);
-  const SleeveDraft sleeve(arm, armhole, p.cell_m);
-  checkRoom(d, sleeve, p, layer_m);
+  CutSleeve sleeve = cutSleeve(arm, armhole, p);
+  checkRoom(d, *sleeve.draft, p, layer_m);
 
-  const auto along = uniformKnots(p.degree, sleeve.along());
   const Vec3 axis = arm.toWorld().rotation.c;
   for (int k = 0; k < 4; ++k) {
-    g.patches[sleeve_front_left + k] = interpolate(uniformKnots(p.degree, holes[static_cast<std::size_t>(k)].cells),
-                                                   along, [&](double s, double t) { return sleeve.at(k, s, t); });
+    g.patches[sleeve_front_left + k] = std::move(sleeve.strips[static_cast<std::size_t>(k)]);
     g.weft[sleeve_front_left + k] = axis;
   }
   for (int k = 0; k < 4; ++k) {

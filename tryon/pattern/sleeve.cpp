@@ -15,9 +15,6 @@ constexpr double bend_below_m = 0.08;  ///< of the armhole's lowest point: where
 constexpr double level_m = 0.003;      ///< between cross-sections of the hull
 constexpr double tube_level_m = 0.01;  ///< between those of the tube
 constexpr int cap_pieces = 48;         ///< of a line over the cap
-/// Around the arm a cell under it is so many times as wide as others: with equal ones, lines of the back come up along
-/// the armhole's edge, and the surface folds there.
-constexpr double kWiderUnder = 2;
 /// From the armhole: within it a line comes off the hull, or into what is kept around the body, to its point.
 constexpr double drawn_m = 0.06, let_in_m = 0.02;
 
@@ -36,8 +33,8 @@ Vec3 ArmholePart::at(double s) const {
   return (1 - f) * points[k] + f * points[k + 1];
 }
 
-SleeveDraft::SleeveDraft(const ArmForm& arm, std::array<ArmholePart, 4> armhole, double cell_m)
-    : arm_(arm), armhole_(std::move(armhole)) {
+SleeveDraft::SleeveDraft(const ArmForm& arm, std::array<ArmholePart, 4> armhole, double cell_m, double wider_under)
+    : arm_(arm), armhole_(std::move(armhole)), wider_under_(wider_under) {
   double lowest = HUGE_VAL, highest = arm.top();
   for (ArmholePart& part : armhole_) {
     for (Vec3& x : part.points) {
@@ -102,7 +99,7 @@ double SleeveDraft::reach(const Wrap& of, const Vec3& x) const {
 SleeveDraft::Line SleeveDraft::makeLine(int part, double s) const {
   const ArmholePart& own = armhole_[static_cast<std::size_t>(part)];
   const auto width = [&](int p) {  // in cells
-    return (p == 3 ? kWiderUnder : 1) * armhole_[static_cast<std::size_t>(p)].cells;
+    return (p == 3 ? wider_under_ : 1) * armhole_[static_cast<std::size_t>(p)].cells;
   };
   double before = -width(0) - 0.5 * width(1);  // from the outermost line
   for (int p = 0; p < part; ++p) before += width(p);

@@ -22,16 +22,18 @@ struct ArmholePart {
 /// counterclockwise seen from the shoulder, t from the hem up to the armhole.
 ///
 /// From the hem up to a little below the armhole the lines of constant s run along the arm at equal shares of the
-/// cross-sections' length, as many as there are cells; those under the arm are twice as far apart. From there each goes
-/// over into its point of the armhole: over the shoulder on the convex hull of arm and armhole, as cloth under tension
+/// cross-sections' length, as many as there are cells; those under the arm are farther apart. From there each goes over
+/// into its point of the armhole: over the shoulder on the convex hull of arm and armhole, as cloth under tension
 /// does; under the arm straight, so that sleeve and wrap are the two sides of a fold along their seam. Front and back
 /// go over from the one into the other. Along each line t is its share of length, so that outer lines have longer cells
 /// than those under the arm, which are shorter.
 class SleeveDraft {
  public:
   /// The parts follow each other around the armhole and are closed: front, over the shoulder, back, under the arm.
+  /// `wider_under`: around the arm a cell under it is so many times as wide as others. With equal ones, lines of the
+  /// back come up along the armhole's edge, and the surface folds there.
   /// Throws InputError, "sleeve_length_m" where the hem does not stand below the armhole by a cell.
-  SleeveDraft(const ArmForm& arm, std::array<ArmholePart, 4> armhole, double cell_m);
+  SleeveDraft(const ArmForm& arm, std::array<ArmholePart, 4> armhole, double cell_m, double wider_under);
 
   int along() const { return along_; }  ///< cells from hem to armhole
   Vec3 at(int part, double s, double t) const;
@@ -51,7 +53,8 @@ class SleeveDraft {
 
   const ArmForm& arm_;
   std::array<ArmholePart, 4> armhole_;  ///< in the arm's frame
-  double bend_ = 0;                     ///< z where lines leave the arm for the armhole
+  double wider_under_;
+  double bend_ = 0;  ///< z where lines leave the arm for the armhole
   int along_ = 0;
   std::vector<ClosedCurve> tube_;  ///< cross-sections from hem to bend_
   std::vector<double> outermost_;  ///< where on each the outermost point stands

@@ -1,0 +1,13 @@
+#pragma once
+/// How sharply a drafted surface turns.
+
+#include "core/nurbs/nurbs.hpp"
+
+namespace gambeson {
+
+/// The largest angle between two normals of the surface within one of its cells [rad], at 5 x 5 points inside each. Of
+/// a smooth drape it is a few degrees; where it nears a half turn the cell is folded, its basis cannot follow, and
+/// bending alone sets the step.
+double largestTurn(const NurbsPatch& patch);
+
+}  // namespace gambeson
