@@ -196,7 +196,8 @@ class Filming {
     if (o_.range) low_ = (*o_.range)[0], scale_.high = (*o_.range)[1] / unit;
     double least = std::numeric_limits<double>::infinity();
     for (const auto& take : takes_) {
-      take->below = take->least<low_, take->above = take->most> unit * scale_.high;
+      take->below = take->least < low_;
+      take->above = take->most > unit * scale_.high;
       DrawnFrame drawn = frame(*take, 0);
       const Vec3 middle =
           0.5 * (take->box[0] + take->box[1]) + origin(*take, take->run.recording.time(take->frames[0]));

@@ -106,7 +106,7 @@ Closed closePanels(const Case& one, const Case& whole, std::size_t garment, Dres
 }
 
 /// Seams of panels are closed [sides of a cell].
-constexpr double closed_cells = 0.05;
+constexpr double closed_cells = 0.01;
 
 /// Of panels without weight; and what contacts may leave of it, as a part of g dt: some mm/s.
 constexpr double closing_m_per_s = 0.5, closing_tolerance = 2;
