@@ -37,8 +37,8 @@ def without_header():
     for file in sources(".cpp"):
         if file.name.endswith("main.cpp") or file.with_suffix(".hpp").exists():
             continue
-        said = re.match(r"/// Detail of (\w+\.hpp)\b", file.read_text())
-        if not said or not (file.parent / said[1]).exists():
+        said = re.match(r"/// Detail of ([\w/]+\.hpp)\b", file.read_text())  # beside it, or from the root
+        if not said or not ((file.parent / said[1]).exists() or (SOURCE / said[1]).exists()):
             found.append(str(file.relative_to(SOURCE)))
     return found
 
