@@ -180,6 +180,19 @@ std::string fitText(const Scenario& s, const State& state) {
   return shortText(shortGirths(m.surface, rest, worn, {0, 0, 1}, fitting_stretch));
 }
 
+/// Height of a garment, the mean over its samples.
+double meanHeight(const Model& m, const State& state) {
+  std::vector<Vec3> x;
+  samplePositions(m, state.p, x);
+  double sum = 0, area = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) sum += m.surface.area_m2[i] * x[i].z, area += m.surface.area_m2[i];
+  return sum / area;
+}
+
+/// Panels go inwards, and up or down by some centimetres, while their seams close; farther, and what has closed is
+/// beside the body: nothing else holds it there.
+constexpr double most_rise_m = 0.15;
+
 void nobody(const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {}
 
 /// Its seams close around the body (core/motion/sewing.hpp), without weight, up to closed_s.
@@ -190,6 +203,8 @@ State closedAround(const Scenario& s, double closed_s, Frequency& frequency, Dre
   const TimeCase& time = s.definition.time;
   const std::unique_ptr<Integrator> integrator =
       makeIntegrator(time.motion, m, *s.stage, time.control(), frequency, work);
+  StepWork scratch;
+  const double stood_m = meanHeight(m, startOf(s, scratch));
   double widest = widestGap(m, state.p);
   while (widest > closed_cells && state.time_s < closed_s - 1e-9) {
     integrator->advance(std::min(closed_s, state.time_s + look_s), state, nobody);
@@ -203,6 +218,13 @@ State closedAround(const Scenario& s, double closed_s, Frequency& frequency, Dre
                     "(\"placing\" in the pattern's file: given, regions) may close them{}{}",
                     closed_s - s.start_s, widest, closed_cells, gapesText(s, state),
                     fitText(s, state).empty() ? "" : ". It does not fit: ", fitText(s, state)));
+  if (const double rise = meanHeight(m, state) - stood_m; s.human && std::abs(rise) > most_rise_m)
+    throw RunError(
+        fmt::format("it has slipped off its wearer while its seams closed: it is {:.0f} cm {} than its panels stood "
+                    "(at most {:.0f}); "
+                    "finer cells, or the other way to place its panels (\"placing\" in the pattern's file: given, "
+                    "regions), may keep it on",
+                    100 * std::abs(rise), rise > 0 ? "higher" : "lower", 100 * most_rise_m));
   if (const std::string fit = fitText(s, state); !fit.empty())
     sayNote(fmt::format("garment \"{}\" does not fit: {}", s.wardrobe.drafts[0].name, fit));
   return state;
@@ -254,7 +276,8 @@ Dressed putOnApart(const Case& c, DressingProgress& progress) {
       progress.show(c.garments[g].name.empty() ? "the garment" : c.garments[g].name, s->start_s);
       progress.add(dressedOf(*s, sewn ? sewnAround(*s, progress) : settled(*s, progress)));
     } catch (const RunError& e) {
-      throw RunError(fmt::format("putting on the garment \"{}\": {}", c.garments[g].name, e.what()));
+      const std::string& name = c.garments[g].name;
+      throw RunError(fmt::format("putting on the garment{}: {}", name.empty() ? "" : " \"" + name + "\"", e.what()));
     }
   }
   return progress.worn();
