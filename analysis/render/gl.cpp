@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 #include <malloc.h>
+#include <unistd.h>
 
 #include <type_traits>
 
@@ -81,6 +82,8 @@ Gl::Gl() : small_(4 * 16 * 16) {
 }
 
 Gl::~Gl() {
+  targets_.clear();
+  programs_.clear();
   mesa().makeCurrent(nullptr, nullptr, 0, 0, 0);
   mesa().destroy(context_);
 }
@@ -89,6 +92,34 @@ void Gl::check(const char* what) const {
   if (const GLenum error = GetError(); error != GL_NO_ERROR)
     throw RunError("cannot draw: OpenGL error " + std::to_string(error) + " in " + what +
                    (error == GL_OUT_OF_MEMORY ? " (out of memory)" : ""));
+}
+
+const ShaderProgram& Gl::program(const std::string& vertex, const std::string& fragment) const {
+  std::unique_ptr<ShaderProgram>& found = programs_[{vertex, fragment}];
+  if (!found) found = std::make_unique<ShaderProgram>(*this, vertex, fragment);
+  return *found;
+}
+
+const Target& Gl::target(const char* name, int width, int height, GLenum color, int samples, bool shadow_depth) const {
+  std::unique_ptr<Target>& found = targets_[name];
+  if (!found || found->width() != width || found->height() != height) {
+    found.reset();  // before the next, which may be large
+    found = std::make_unique<Target>(*this, width, height, color, samples, shadow_depth);
+  }
+  return *found;
+}
+
+const Gl& openGl() {
+  struct Kept {
+    pid_t process = getpid();
+    Gl gl;
+  };
+  // Left to the end of the process: OSMesa's own threads are gone in a child, where nothing may wait for them.
+  thread_local Kept* kept = nullptr;
+  if (!kept || kept->process != getpid()) kept = new Kept;
+  while (kept->gl.GetError() != GL_NO_ERROR) {  // of a picture that failed
+  }
+  return kept->gl;
 }
 
 ShaderProgram::ShaderProgram(const Gl& gl, const std::string& vertex, const std::string& fragment)

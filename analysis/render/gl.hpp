@@ -7,6 +7,8 @@
 #include <GL/osmesa.h>
 // clang-format on
 
+#include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +40,9 @@ namespace gambeson {
   use(USEPROGRAM, UseProgram) use(VERTEXATTRIBPOINTER, VertexAttribPointer) use(VIEWPORT, Viewport)
 // clang-format on
 
+class ShaderProgram;
+class Target;
+
 /// A current context for the lifetime of this object; `gl.Clear(...)` calls glClear.
 class Gl {
  public:
@@ -53,10 +58,23 @@ class Gl {
   /// Throws RunError where OpenGL reports an error since the last check.
   void check(const char* what) const;
 
+  /// The program of these shaders, built when it is first asked for.
+  const ShaderProgram& program(const std::string& vertex, const std::string& fragment) const;
+  /// The target of that name (see Target for the rest), with what was last drawn into it. It is made anew where it was
+  /// of another size; `color` and the rest are the same in each call for one name.
+  const Target& target(const char* name, int width, int height, GLenum color, int samples,
+                       bool shadow_depth = false) const;
+
  private:
   OSMesaContext context_ = nullptr;
+  mutable std::map<std::pair<std::string, std::string>, std::unique_ptr<ShaderProgram>> programs_;
+  mutable std::map<std::string, std::unique_ptr<Target>> targets_;
   std::vector<unsigned char> small_;  ///< OSMesa's own buffer, which nobody draws into
 };
+
+/// The context of this thread, current. It is made for the first picture and stays until the process ends, so that
+/// later pictures find their shaders compiled and their images there, which OSMesa would fill with zeros first.
+const Gl& openGl();
 
 /// A program of one vertex and one fragment shader.
 class ShaderProgram {

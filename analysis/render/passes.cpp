@@ -170,7 +170,7 @@ Passes drawPasses(const PassInput& in, int width, int height) {
   view.high = {(width - in.camera.center_x) / scale, in.camera.center_y / scale, depth.high.z + deep};
   const Matrix P = orthographic(camera_rows, view);
 
-  const Gl gl;
+  const Gl& gl = openGl();
   GLuint colors = 0;
   gl.GenTextures(1, &colors);
   gl.BindTexture(GL_TEXTURE_2D, colors);
@@ -188,9 +188,9 @@ Passes drawPasses(const PassInput& in, int width, int height) {
 
   // What the sun sees.
   constexpr int sun_size = 2048;
-  const Target sun_target(gl, sun_size, sun_size, 0, 0, true);
+  const Target& sun_target = gl.target("sun", sun_size, sun_size, 0, 0, true);
   {
-    const ShaderProgram program(gl, shader::kSurfaceVertex, shader::kNothingFragment);
+    const ShaderProgram& program = gl.program(shader::kSurfaceVertex, shader::kNothingFragment);
     clear(gl, sun_target, 0, 0, 0, 0);
     program.use();
     gl.UniformMatrix4fv(program.at("P"), 1, GL_FALSE, S.data());
@@ -199,9 +199,9 @@ Passes drawPasses(const PassInput& in, int width, int height) {
   gl.check("the shadow");
 
   // Normals and depth at the size of the picture, for occlusion and hidden arrows.
-  const Target normals(gl, width, height, GL_RGBA32F, 0);
+  const Target& normals = gl.target("normals", width, height, GL_RGBA32F, 0);
   {
-    const ShaderProgram program(gl, shader::kSurfaceVertex, shader::kNormalFragment);
+    const ShaderProgram& program = gl.program(shader::kSurfaceVertex, shader::kNormalFragment);
     clear(gl, normals, 0, 0, 0, -1e9f);
     program.use();
     gl.UniformMatrix4fv(program.at("P"), 1, GL_FALSE, P.data());
@@ -211,10 +211,11 @@ Passes drawPasses(const PassInput& in, int width, int height) {
 
   const double occlusion_radius = std::min(0.05 * extent, 60 / scale);
   {
-    const Target raw(gl, width, height, GL_RGBA8, 0), smooth(gl, width, height, GL_RGBA8, 0);
+    const Target& raw = gl.target("raw", width, height, GL_RGBA8, 0);
+    const Target& smooth = gl.target("smooth", width, height, GL_RGBA8, 0);
     gl.Disable(GL_DEPTH_TEST);
-    const ShaderProgram occlusion(gl, shader::kScreenVertex, shader::kOcclusionFragment),
-        blur(gl, shader::kScreenVertex, shader::kBlurFragment);
+    const ShaderProgram& occlusion = gl.program(shader::kScreenVertex, shader::kOcclusionFragment);
+    const ShaderProgram& blur = gl.program(shader::kScreenVertex, shader::kBlurFragment);
     raw.bind();
     occlusion.use();
     texture(gl, occlusion, "normals", 0, normals.colorTexture());
@@ -232,7 +233,8 @@ Passes drawPasses(const PassInput& in, int width, int height) {
   }
   gl.check("the occlusion");
 
-  const Target samples(gl, 2 * width, 2 * height, GL_RGBA8, 4), resolved(gl, 2 * width, 2 * height, GL_RGBA8, 0);
+  const Target& samples = gl.target("samples", 2 * width, 2 * height, GL_RGBA8, 4);
+  const Target& resolved = gl.target("resolved", 2 * width, 2 * height, GL_RGBA8, 0);
   const auto sunlit = [&](const ShaderProgram& program) {
     program.use();
     gl.UniformMatrix4fv(program.at("P"), 1, GL_FALSE, P.data());
@@ -242,7 +244,8 @@ Passes drawPasses(const PassInput& in, int width, int height) {
   };
   clear(gl, samples, 0, 0, 0, 0);
   if (ground) {
-    const ShaderProgram program(gl, shader::kSurfaceVertex, version + shader::kSunlight + shader::kGroundFragment);
+    const ShaderProgram& program =
+        gl.program(shader::kSurfaceVertex, version + shader::kSunlight + shader::kGroundFragment);
     const Buffers square(gl, ground->list);
     sunlit(program);
     uniform(gl, program.at("middle"), ground->middle);
@@ -253,7 +256,8 @@ Passes drawPasses(const PassInput& in, int width, int height) {
     gl.DepthMask(GL_TRUE);
   }
   {
-    const ShaderProgram program(gl, shader::kSurfaceVertex, version + shader::kSunlight + shader::kSurfaceFragment);
+    const ShaderProgram& program =
+        gl.program(shader::kSurfaceVertex, version + shader::kSunlight + shader::kSurfaceFragment);
     sunlit(program);
     texture(gl, program, "map", 1, colors);
     uniform(gl, program.at("up"), in.up_camera);
@@ -267,7 +271,7 @@ Passes drawPasses(const PassInput& in, int width, int height) {
 
   clear(gl, samples, 0, 0, 0, 0);
   if (!in.arrows.indices.empty() || !in.legend.indices.empty()) {
-    const ShaderProgram program(gl, shader::kSurfaceVertex, shader::kArrowFragment);
+    const ShaderProgram& program = gl.program(shader::kSurfaceVertex, shader::kArrowFragment);
     program.use();
     gl.UniformMatrix4fv(program.at("P"), 1, GL_FALSE, P.data());
     texture(gl, program, "normals", 0, normals.colorTexture());

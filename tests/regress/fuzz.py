@@ -214,6 +214,8 @@ def main():
     parser.add_argument("--warm", type=pathlib.Path)
     options = parser.parse_args()
     chosen = [k for k in kinds() if not options.kinds or k.name in options.kinds.split(",")]
+    if options.count < len(chosen):  # one of each of as many kinds, spread over all
+        chosen = [chosen[i * len(chosen) // options.count] for i in range(options.count)]
     state = {"done": 0, "counts": {}, "faults": []}
     if options.state:
         options.state.mkdir(parents=True, exist_ok=True)

@@ -50,7 +50,7 @@ std::vector<Scene> hardScenes() {
   return scenes;
 }
 
-const BothSizes kAmple{ListSizes{1 << 18, 1 << 16, 1 << 16, 1 << 16}, ListSizes{1 << 20, 1 << 18, 1 << 17, 1 << 17}};
+const BothSizes kAmple{ListSizes{1 << 15, 1 << 13, 1 << 13, 1 << 13}, ListSizes{1 << 17, 1 << 15, 1 << 14, 1 << 14}};
 
 template <class Device>
 std::unique_ptr<ImpactSearch> searched(const Scene& scene, Broad broad, Bounds bounds = Bounds::boxes,

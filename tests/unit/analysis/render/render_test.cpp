@@ -373,6 +373,22 @@ TEST(Render, ALargePictureIsDrawnInStrips) {
   EXPECT_LT(worst_row, 6);  // of 255; a strip in a wrong place is some 30 off
 }
 
+TEST(Render, PicturesBeforeLeaveNoTrace) {
+  // Context, shaders and images are kept from picture to picture.
+  Scene scene = focused(0.5);
+  scene.meshes = {sphere({0, 0, 0}, 0.3, kBlue)};
+  Scene full = focused(0.3);
+  full.meshes = {sphere({0, 0.1, 0}, 0.4, kGreen), square(0.3, {0, 1, 2, 3})};
+  full.bar = ColorBar{"Stress [Pa]", 0, 3};
+  full.ground_m = -0.4;
+  full.arrows = {Arrow{{0.5, 0, 0}, {0.5, 0.2, 0.1}}};
+  const Image first = render(scene, 160, 120), other = render(full, 160, 120);
+  render(full, 200, 300);
+  EXPECT_NE(first.rgb, other.rgb);
+  EXPECT_EQ(render(scene, 160, 120).rgb, first.rgb);
+  EXPECT_EQ(render(full, 160, 120).rgb, other.rgb);
+}
+
 TEST(Render, SaysWhichPackageHasTheFont) {
   try {
     findFont(FontWeight::regular, {"/nonexistent"});
