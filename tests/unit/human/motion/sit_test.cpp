@@ -14,6 +14,7 @@
 #include "human/motion/motion.hpp"
 #include "human/motion/standing.hpp"
 #include "unit/human/manikin/clearance.hpp"
+#include "unit/manikins_asked.hpp"
 
 namespace gambeson {
 namespace {
@@ -139,7 +140,7 @@ TEST_P(EverySit, MovesSmoothly) {
   EXPECT_LT(most, 0.05);
 }
 
-INSTANTIATE_TEST_SUITE_P(OfAllManikins, EverySit, testing::ValuesIn(manikinNames()));
+INSTANTIATE_TEST_SUITE_P(OfAllManikins, EverySit, testing::ValuesIn(manikinsAsked()));
 
 TEST(Sit, RepeatsItself) {
   const Human human = makeManikin("male_p50");

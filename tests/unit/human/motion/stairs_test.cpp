@@ -11,6 +11,7 @@
 #include "human/motion/standing.hpp"
 #include "human/motion/walk_curves.hpp"
 #include "unit/human/manikin/clearance.hpp"
+#include "unit/manikins_asked.hpp"
 
 namespace gambeson {
 namespace {
@@ -126,7 +127,7 @@ TEST_P(EveryClimb, StairsAreThoseThatPeopleClimb) {
   EXPECT_NEAR(c.velocity.y, 0, 1e-9);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EveryClimb, testing::ValuesIn(manikinNames()), [](const auto& i) { return i.param; });
+INSTANTIATE_TEST_SUITE_P(All, EveryClimb, testing::ValuesIn(manikinsAsked()), [](const auto& i) { return i.param; });
 
 // The configuration after a stride (two steps, 1.2 s) is that at its start, two rises higher and two treads further;
 // half a stride later it is the mirror image.

@@ -14,6 +14,7 @@
 #include "human/motion/leg.hpp"
 #include "human/motion/standing.hpp"
 #include "unit/human/manikin/clearance.hpp"
+#include "unit/manikins_asked.hpp"
 
 namespace gambeson {
 namespace {
@@ -165,7 +166,7 @@ TEST_P(EveryStepOver, LimbsStayApartAndWithinTheirLimits) {
   EXPECT_GE(arms, 0.020);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EveryStepOver, testing::ValuesIn(manikinNames()), [](const auto& i) { return i.param; });
+INSTANTIATE_TEST_SUITE_P(All, EveryStepOver, testing::ValuesIn(manikinsAsked()), [](const auto& i) { return i.param; });
 
 TEST(StepOver, VelocityIsContinuousAndZeroAtTheEnds) {
   const Stepping& s = stepping("male_p50");

@@ -12,6 +12,7 @@
 #include "human/manikin/manikin.hpp"
 #include "human/skin/make_skin.hpp"
 #include "unit/human/skin/postures.hpp"
+#include "unit/manikins_asked.hpp"
 
 namespace gambeson {
 namespace {
@@ -69,7 +70,7 @@ double perimeter(double a, double b) {
 }
 
 class SkinOf : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Manikins, SkinOf, testing::ValuesIn(manikinNames()), [](const auto& i) { return i.param; });
+INSTANTIATE_TEST_SUITE_P(Manikins, SkinOf, testing::ValuesIn(manikinsAsked()), [](const auto& i) { return i.param; });
 
 TEST_P(SkinOf, HasTheGirthsOfTheDataGoodTrianglesAndCleanFolds) {
   const Human h = makeManikin(GetParam());

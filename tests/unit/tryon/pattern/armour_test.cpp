@@ -8,8 +8,8 @@
 
 #include "core/cloth/draft/areas.hpp"
 #include "core/cloth/draft/join_garments.hpp"
-#include "core/cloth/shell/shell.hpp"
 #include "core/cloth/patches/surface.hpp"
+#include "core/cloth/shell/shell.hpp"
 #include "core/contact/crossing.hpp"
 #include "core/contact/proximity.hpp"
 #include "core/error.hpp"
@@ -20,6 +20,7 @@
 #include "human/skin/make_skin.hpp"
 #include "tryon/pattern/check.hpp"
 #include "tryon/pattern/pattern.hpp"
+#include "unit/manikins_asked.hpp"
 
 namespace gambeson {
 namespace {
@@ -256,8 +257,7 @@ TEST_P(ArmourOn, IsItsOwnMirrorImageWithNormalsOutward) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Manikins, ArmourOn,
-                         testing::Values("male_p5", "male_p50", "male_p95", "female_p5", "female_p50", "female_p95"));
+INSTANTIATE_TEST_SUITE_P(Manikins, ArmourOn, testing::ValuesIn(manikinsAsked<const char*>()));
 
 TEST(Belt, CarriesItsTensionOnTheWaist) {
   // dE/dL of the rest ring drawn out onto the body: nominal tension, Poisson's contraction across allowed.

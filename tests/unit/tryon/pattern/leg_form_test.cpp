@@ -10,6 +10,7 @@
 #include "human/manikin/manikin.hpp"
 #include "tryon/pattern/check.hpp"
 #include "tryon/pattern/pattern.hpp"
+#include "unit/manikins_asked.hpp"
 
 namespace gambeson {
 namespace {
@@ -110,8 +111,7 @@ TEST_P(Legs, EndAtTheAnkle) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Manikins, Legs,
-                         testing::Values("male_p5", "male_p50", "male_p95", "female_p5", "female_p50", "female_p95"));
+INSTANTIATE_TEST_SUITE_P(Manikins, Legs, testing::ValuesIn(manikinsAsked<const char*>()));
 
 }  // namespace
 }  // namespace gambeson

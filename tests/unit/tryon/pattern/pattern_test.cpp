@@ -17,6 +17,7 @@
 #include "human/motion/standing.hpp"
 #include "tryon/pattern/check.hpp"
 #include "tryon/pattern/wrap.hpp"
+#include "unit/manikins_asked.hpp"
 
 namespace gambeson {
 namespace {
@@ -364,8 +365,7 @@ TEST_P(Shorts, IsItsOwnMirrorImage) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Manikins, Shorts,
-                         testing::Values("male_p5", "male_p50", "male_p95", "female_p5", "female_p50", "female_p95"));
+INSTANTIATE_TEST_SUITE_P(Manikins, Shorts, testing::ValuesIn(manikinsAsked<const char*>()));
 
 TEST(ShortsDraft, HigherDegreesKeepSeamsAndGirths) {
   const Human human = makeManikin("male_p50");

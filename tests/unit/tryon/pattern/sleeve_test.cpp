@@ -18,6 +18,7 @@
 #include "human/motion/standing.hpp"
 #include "human/skin/make_skin.hpp"
 #include "tryon/pattern/check.hpp"
+#include "unit/manikins_asked.hpp"
 
 namespace gambeson {
 namespace {
@@ -233,7 +234,6 @@ TEST_P(Sleeves, StartClearOfTheSkin) {
 
 }  // namespace
 
-INSTANTIATE_TEST_SUITE_P(Manikins, Sleeves,
-                         testing::Values("male_p5", "male_p50", "male_p95", "female_p5", "female_p50", "female_p95"));
+INSTANTIATE_TEST_SUITE_P(Manikins, Sleeves, testing::ValuesIn(manikinsAsked<const char*>()));
 
 }  // namespace gambeson

@@ -9,6 +9,7 @@
 #include "human/manikin/manikin.hpp"
 #include "human/skin/make_skin.hpp"
 #include "tryon/pattern/armour.hpp"
+#include "unit/manikins_asked.hpp"
 
 namespace gambeson {
 namespace {
@@ -118,8 +119,7 @@ TEST_P(StrapOn, TheShoulderOfAWearerDoesNotTurnInItsPlane) {
   EXPECT_LT(std::abs(length(0) - length(1)) / pattern.strap_width_m, 0.15);
 }
 
-INSTANTIATE_TEST_SUITE_P(Manikins, StrapOn,
-                         testing::Values("male_p5", "male_p50", "male_p95", "female_p5", "female_p50", "female_p95"));
+INSTANTIATE_TEST_SUITE_P(Manikins, StrapOn, testing::ValuesIn(manikinsAsked<const char*>()));
 
 TEST(Strap, EndsBehindTheBodyAreNamed) {
   const Human human = makeManikin("male_p50");
