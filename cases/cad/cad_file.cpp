@@ -1,27 +1,20 @@
 #include "cases/cad/cad_file.hpp"
 
-#include <dlfcn.h>
-
 #include <algorithm>
 #include <cctype>
 #include <fstream>
 
 #include "cases/cad/tidy.hpp"
 #include "core/error.hpp"
+#include "core/io/beside.hpp"
 #include "core/io/own_file.hpp"
 
 namespace gambeson {
 namespace {
 
-/// Loads OpenCASCADE; for a process that ends soon.
 const CadModule& loaded() {
-  const std::filesystem::path library =
-      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "gambeson_cad.so";
-  void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!handle) throw RunError(std::string("OpenCASCADE cannot be loaded: ") + dlerror());
-  const auto entry = reinterpret_cast<const CadModule* (*)()>(dlsym(handle, "gambesonCadModule"));
-  if (!entry) throw RunError(library.string() + " is of another version");
-  return *entry();
+  return *reinterpret_cast<const CadModule* (*)()>(
+      functionBeside("gambeson_cad.so", "gambesonCadModule", "OpenCASCADE"))();
 }
 
 /// OpenCASCADE needs some seconds for a megabyte.

@@ -1,25 +1,19 @@
 #include "cases/film/film.hpp"
 
-#include <dlfcn.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <cctype>
 
 #include "core/error.hpp"
+#include "core/io/beside.hpp"
 
 namespace gambeson {
 namespace {
 
-/// Loads libav, which stays.
 const FilmModule& filmModule() {
-  const std::filesystem::path library =
-      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "gambeson_film.so";
-  void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!handle) throw RunError(std::string("libav cannot be loaded: ") + dlerror());
-  const auto entry = reinterpret_cast<const FilmModule* (*)()>(dlsym(handle, "gambesonFilmModule"));
-  if (!entry) throw RunError(library.string() + " is of another version");
-  return *entry();
+  return *reinterpret_cast<const FilmModule* (*)()>(
+      functionBeside("gambeson_film.so", "gambesonFilmModule", "libav"))();
 }
 
 std::string deflated(const std::vector<unsigned char>& bytes) {

@@ -9,7 +9,6 @@
 /// that ended it), seconds of the processor with those of its readers, most memory of one process [kB], and 1, or 0
 /// where it was ended for its time.
 
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -18,7 +17,6 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <filesystem>
 #include <iostream>
 #include <sstream>
 #include <string>
@@ -26,16 +24,14 @@
 
 #include "cases/cad/cad_file.hpp"
 #include "cases/command/cli.hpp"
+#include "core/io/beside.hpp"
 
 namespace {
 
 /// Once loaded here it is loaded in every process that is split off.
 void warm(const std::vector<std::string>& files) {
-  const std::filesystem::path library =
-      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "gambeson_cad.so";
-  void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!handle) return;
-  const auto entry = reinterpret_cast<const gambeson::CadModule* (*)()>(dlsym(handle, "gambesonCadModule"));
+  const auto entry = reinterpret_cast<const gambeson::CadModule* (*)()>(
+      gambeson::functionBeside("gambeson_cad.so", "gambesonCadModule", "OpenCASCADE"));
   for (const std::string& file : files)
     if (gambeson::CadFormat format; gambeson::isCadFile(file, format)) entry()->read(file, format, 0);
 }
