@@ -18,6 +18,7 @@ struct CutEdge {
   double share = 0;
 
   Vec3 of(std::span<const Vec3> x) const { return x[a] + share * (x[b] - x[a]); }
+  std::array<int, 2> key() const { return {static_cast<int>(std::min(a, b)), static_cast<int>(std::max(a, b))}; }
 };
 
 /// Calls f with both ends of each piece where a plane cuts triangles.
@@ -75,8 +76,9 @@ std::vector<GirthPlane> girthPlanes(const Human& human, std::span<const Pose> X)
 std::vector<std::array<Vec2, 2>> cutPieces(const GirthPlane& p, std::span<const Vec3> x,
                                            std::span<const std::array<int, 3>> triangles) {
   std::vector<std::array<Vec2, 2>> out;
-  forCuts(p, x, triangles,
-          [&](const CutEdge& a, const CutEdge& b) { out.push_back({inPlane(p, a.of(x)), inPlane(p, b.of(x))}); });
+  forCuts(p, x, triangles, [&](const CutEdge& a, const CutEdge& b) {
+    out.push_back({inPlane(p, a.of(x)), inPlane(p, b.of(x))});
+  });
   return out;
 }
 
@@ -84,7 +86,7 @@ std::vector<ClothPiece> cutCloth(const GirthPlane& p, std::span<const Vec3> x, s
                                  std::span<const std::array<int, 3>> triangles) {
   std::vector<ClothPiece> out;
   forCuts(p, x, triangles, [&](const CutEdge& a, const CutEdge& b) {
-    out.push_back({{inPlane(p, a.of(x)), inPlane(p, b.of(x))}, norm(b.of(rest) - a.of(rest))});
+    out.push_back({{inPlane(p, a.of(x)), inPlane(p, b.of(x))}, {a.key(), b.key()}, norm(b.of(rest) - a.of(rest))});
   });
   return out;
 }

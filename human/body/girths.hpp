@@ -29,9 +29,11 @@ std::vector<GirthPlane> girthPlanes(const Human& human, std::span<const Pose> li
 std::vector<std::array<Vec2, 2>> cutPieces(const GirthPlane& plane, std::span<const Vec3> x,
                                            std::span<const std::array<int, 3>> triangles);
 
-/// A piece of cloth in a plane, and how long the same cloth is at rest [m].
+/// A piece of cloth in a plane, and how long the same cloth is at rest [m]. Neighbours have an edge of the mesh, by its
+/// vertices, in common.
 struct ClothPiece {
   std::array<Vec2, 2> ends;
+  std::array<std::array<int, 2>, 2> edges{};
   double rest_m = 0;
 };
 

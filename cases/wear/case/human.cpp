@@ -50,11 +50,9 @@ Human fromScan(const ScanOptions& options, WearerNotes* notes) {
   for (const ScanGirth& g : found.girths) {
     std::string name = g.name;
     std::replace(name.begin(), name.end(), '_', ' ');
-    girths +=
-        fmt::format("{}{} {:.1f}, {:.1f}", girths.empty() ? "" : "; ", name, 100 * g.scan_m, 100 * g.standing_m);
+    girths += fmt::format("{}{} {:.1f}, {:.1f}", girths.empty() ? "" : "; ", name, 100 * g.scan_m, 100 * g.standing_m);
   }
-  if (!girths.empty())
-    tell(notes, fmt::format("scan {}: girths in cm as scanned, and standing: {}", file, girths));
+  if (!girths.empty()) tell(notes, fmt::format("scan {}: girths in cm as scanned, and standing: {}", file, girths));
   return human;
 }
 

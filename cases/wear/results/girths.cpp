@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <string>
 
@@ -34,12 +35,53 @@ GirthPlane ofOthers(const GirthPlane& plane, std::size_t links) {
   return out;
 }
 
+/// Pieces that hang together, each run with a number: those of one patch, which nothing parts.
+std::vector<std::size_t> runsOf(const std::vector<ClothPiece>& pieces) {
+  std::map<std::array<int, 2>, std::vector<std::size_t>> at_edge;
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    for (const auto& edge : pieces[k].edges) at_edge[edge].push_back(k);
+  std::vector<std::size_t> run(pieces.size(), pieces.size());
+  std::size_t count = 0;
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    if (run[k] < pieces.size()) continue;
+    std::vector<std::size_t> open{k};
+    run[k] = count;
+    while (!open.empty()) {
+      const std::size_t at = open.back();
+      open.pop_back();
+      for (const auto& edge : pieces[at].edges)
+        for (const std::size_t next : at_edge[edge])
+          if (run[next] == pieces.size()) run[next] = count, open.push_back(next);
+    }
+    ++count;
+  }
+  return run;
+}
+
+double lengthOf(const ClothPiece& p) { return std::hypot(p.ends[1].x - p.ends[0].x, p.ends[1].y - p.ends[0].y); }
+Vec2 middleOf(const ClothPiece& p) { return {0.5 * (p.ends[0].x + p.ends[1].x), 0.5 * (p.ends[0].y + p.ends[1].y)}; }
+
+/// Whether each piece lies around another part of the body: its run does, by the mean of its distances from the
+/// section here and from those of the others. A piece alone tells nothing: the side of a shirt is nearer to an arm that
+/// hangs beside it than to the chest.
+std::vector<char> areOfOthers(const std::vector<ClothPiece>& pieces, const std::vector<Vec2>& section,
+                              const std::vector<Vec2>& others) {
+  const std::vector<std::size_t> run = runsOf(pieces);
+  std::vector<double> farther(pieces.size(), 0);  // from here than from others, summed over the run's length
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    farther[run[k]] += lengthOf(pieces[k]) * (std::sqrt(squaredDistance(middleOf(pieces[k]), section)) -
+                                              std::sqrt(squaredDistance(middleOf(pieces[k]), others)));
+  std::vector<char> out;
+  for (const std::size_t r : run) out.push_back(!others.empty() && farther[r] > 0);
+  return out;
+}
+
 struct LengthAround {
   double worn_m = 0, rest_m = 0;
 };
 
-/// Length of the pieces of cloth around a section, worn and at rest; 0 where they do not go around it. A piece that is
-/// nearer to the section of another part of the body (of an arm beside the chest) belongs there.
+/// Length of the pieces of cloth around a section, worn and at rest; 0 where they do not go around it. What lies
+/// around another part of the body, as a sleeve beside the chest, is left out.
 LengthAround lengthAround(const std::vector<ClothPiece>& pieces, const std::vector<Vec2>& section,
                           const std::vector<Vec2>& others) {
   constexpr double inf = std::numeric_limits<double>::infinity();
@@ -52,24 +94,24 @@ LengthAround lengthAround(const std::vector<ClothPiece>& pieces, const std::vect
   const double radius = 0.5 * std::max(high.x - low.x, high.y - low.y);
   std::array<bool, kSectors> seen{};
   const auto sectorOf = [&](const Vec2& p) {
-    const double turn =
-        (std::atan2(p.y - middle.y, p.x - middle.x) + std::numbers::pi) / (2 * std::numbers::pi);
+    const double turn = (std::atan2(p.y - middle.y, p.x - middle.x) + std::numbers::pi) / (2 * std::numbers::pi);
     return std::clamp(static_cast<int>(turn * kSectors), 0, kSectors - 1);
   };
   LengthAround length;
-  for (const ClothPiece& piece : pieces) {
-    const auto& [a, b] = piece.ends;
-    const Vec2 m{0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
-    if (std::hypot(m.x - middle.x, m.y - middle.y) > kReach * radius) continue;
-    if (squaredDistance(m, others) < squaredDistance(m, section)) continue;
-    length.worn_m += std::hypot(b.x - a.x, b.y - a.y);
-    length.rest_m += piece.rest_m;
-    // All that the piece covers, the shorter way from end to end: coarse cells have fewer pieces than there are sectors.
+  const std::vector<char> of_others = areOfOthers(pieces, section, others);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const auto& [a, b] = pieces[k].ends;
+    const Vec2 m = middleOf(pieces[k]);
+    if (of_others[k] || std::hypot(m.x - middle.x, m.y - middle.y) > kReach * radius) continue;
+    length.worn_m += lengthOf(pieces[k]);
+    length.rest_m += pieces[k].rest_m;
+    // All that the piece covers, the shorter way from end to end: coarse cells have fewer pieces than there are
+    // sectors.
     int from = sectorOf(a), to = sectorOf(b);
     if ((to - from + kSectors) % kSectors > kSectors / 2) std::swap(from, to);
-    for (int k = from;; k = (k + 1) % kSectors) {
-      seen[static_cast<std::size_t>(k)] = true;
-      if (k == to) break;
+    for (int n = from;; n = (n + 1) % kSectors) {
+      seen[static_cast<std::size_t>(n)] = true;
+      if (n == to) break;
     }
   }
   return std::count(seen.begin(), seen.end(), false) <= kMissing ? length : LengthAround{};

@@ -212,7 +212,8 @@ struct SurfaceDepth {
   int points = 0;
 };
 SurfaceDepth surfaceDepth(const Scenario& scenario, const RecordingReader& recording);
-/// The widest gap between both sides of a sewn seam, at points all along (SewnRows::pairs), at every frame of the motion.
+/// The widest gap between both sides of a sewn seam, at points all along (SewnRows::pairs), at every frame of the
+/// motion.
 struct SeamGap {
   double gap_m = 0, cells = 0;  ///< and in sides of the smaller cell there
   double time_s = 0;

@@ -115,10 +115,11 @@ void noteFolds(const Garment& garment, const Case& c, const GarmentCase& worn, c
   if (!(most > kFoldedTurn_rad)) return;
   const std::string fine = largestOf(
       worn, "cell", [&](const GarmentCase& g) { return turn(makeGarment(c, g, wearer, under)) <= kFoldedTurn_rad; });
-  fit.notes.push_back(fmt::format(
-      "{}a cell of \"{}\" turns by {:.0f} degrees and is folded: its steps are short, and it crosses what is beside it; {}",
-      worn.name.empty() ? "" : worn.name + ": ", garment.patch_names[at], most / rad_per_deg,
-      fine.empty() ? "no smaller cell mends that" : "\"cell\" of " + fine + " and less does not"));
+  fit.notes.push_back(
+      fmt::format("{}a cell of \"{}\" turns by {:.0f} degrees and is folded: steps get short there, and it may cross "
+                  "what is beside it; {}",
+                  worn.name.empty() ? "" : worn.name + ": ", garment.patch_names[at], most / rad_per_deg,
+                  fine.empty() ? "no smaller cell mends that" : "the largest \"cell\" without one is " + fine));
 }
 
 /// What cannot be drafted is said with what can.

@@ -43,7 +43,7 @@ struct GarmentMaking {
   std::span<const Worn> under;     ///< the garments before it
   const Human* human = nullptr;    ///< null without a human, or where it has no surface
   Posture posture;                 ///< in which it is put on
-  GarmentFit* fit = nullptr;  ///< takes how it fits the body; null: nobody asks
+  GarmentFit* fit = nullptr;       ///< takes how it fits the body; null: nobody asks
 };
 
 /// What a garment asks of the arms of whoever is dressed: nothing, that they hang as it was drafted for, or that they

@@ -42,17 +42,15 @@ TEST(CheckGirths, OfPanelsWithTheirEaseBeforeTheyAreSewn) {
   const Folder folder;
   const Human human = makeManikin("male_p50");
   const StandingBody form(human, standing(human));
-  region_patterns::Size size;
-  size.quarter_waist = size.quarter_hem = 0.26;
-  const FlatPattern skirt = region_patterns::skirt(size);
-  folder.write("pattern.json", patternText(skirt));
-  const std::vector<std::string> lines =
-      checkRun(readCase(folder.write("case.json", caseOf(R"({"pattern": {"path": "pattern.json", "cell": "60 mm"}})"))));
+  folder.write("pattern.json", patternText(region_patterns::skirt({})));
+  const std::vector<std::string> lines = checkRun(
+      readCase(folder.write("case.json", caseOf(R"({"pattern": {"path": "pattern.json", "cell": "60 mm"}})"))));
   const std::vector<double> hip =
       numbersIn(lines, R"(girth of the hip: body ([0-9.]+) cm; panels ([0-9.]+) cm at ([0-9.]+) m, where the body is )"
                        R"(([0-9.]+) cm: ease (-?[0-9.]+) cm \((-?[0-9.]+) %\))");
-  ASSERT_EQ(hip.size(), 6u);
-  EXPECT_NEAR(hip[1], 104, 0.06) << "four quarters of 26 cm";
+  ASSERT_EQ(hip.size(), 6u) << testing::PrintToString(lines);
+  EXPECT_GT(hip[1], 4 * 21.5) << "between its waist and its hem";
+  EXPECT_LT(hip[1], 4 * 30);
   EXPECT_NEAR(hip[2], form.origin(form.link("thigh_left")).z, 0.006);
   EXPECT_NEAR(hip[0], hip[3], 0.2) << "measured in the plane of the hip joints both times";
   EXPECT_NEAR(hip[4], hip[1] - hip[3], 0.11);
@@ -79,7 +77,7 @@ TEST(CheckGirths, OfAShirtAreToldFromThoseOfItsSleeves) {
   EXPECT_NEAR(ease("waist"), 0.10, 0.08);
   for (const char* arm : {"upper_arm_left", "upper_arm_right"}) {
     EXPECT_GT(ease(arm), 0.05) << arm;
-    EXPECT_LT(ease(arm), 0.4) << arm;
+    EXPECT_LT(ease(arm), 0.8) << arm;
   }
   // Pulled wider by a tenth than it was cut, it is worn longer and not cut longer.
   const double cut_m = at.at("waist").worn[0].rest_m;
@@ -92,17 +90,18 @@ TEST(CheckGirths, OfAShirtAreToldFromThoseOfItsSleeves) {
     }
 }
 
-/// With cells of 45 mm one of a sleeve turns by 167 degrees, with the cell that is said to do none is folded.
+/// With cells of 70 mm one of a sleeve turns by 96 degrees; with the cell that is said to do none is folded.
 TEST(CheckGirths, AFoldedCellIsSaidWithTheLargestThatIsNone) {
   const Folder folder;
-  const std::string form = R"(a cell of "sleeve[^"]*" turns by ([0-9]+) degrees and is folded.*"cell" of ([0-9.]+) mm)";
+  const std::string form =
+      R"(a cell of "sleeve[^"]*" turns by ([0-9]+) degrees and is folded.*the largest "cell" without one is ([0-9.]+) mm)";
   const Case coarse =
-      readCase(folder.write("case.json", caseOf(R"({"shirt": {"sleeve_length": "50 cm", "cell": "45 mm"}})")));
+      readCase(folder.write("case.json", caseOf(R"({"shirt": {"sleeve_length": "50 cm", "cell": "70 mm"}})")));
   const std::vector<double> said = numbersIn(buildScenario(coarse)->notes, form);
   ASSERT_EQ(said.size(), 2u);
   EXPECT_GT(said[0], 95);
-  EXPECT_LT(said[1], 45);
-  EXPECT_GE(said[1], 30);
+  EXPECT_LT(said[1], 70);
+  EXPECT_GE(said[1], 35);
   const Case finer = readCase(folder.path() / "case.json", {"garment.shirt.cell=" + std::to_string(1e-3 * said[1])});
   for (const std::string& note : buildScenario(finer)->notes) EXPECT_EQ(note.find("is folded"), std::string::npos);
 }
