@@ -72,8 +72,9 @@ void addPlots(const Measured& m, ReportInput& in) {
       if (isTouched(j) && titleOf(j) == title) {
         if (!highest || std::abs(j.peak.value) > std::abs(highest->peak.value)) highest = &j;
         unit = j.prismatic ? "N" : "Nm";
-        plot.series.push_back(
-            {j.side.empty() ? j.name : j.side, unit, m.added.time_s, m.added.of(j.joint), toneOf(j.side)});
+        std::string name = j.side.empty() ? j.name : j.side;
+        std::replace(name.begin(), name.end(), '_', ' ');
+        plot.series.push_back({name, unit, m.added.time_s, m.added.of(j.joint), toneOf(j.side)});
       }
     plot.caption = signOf(highest->movement);
     if (!highest->prismatic) plot.peak_note = nameOf(pushOf(highest->peak.value, highest->rate_at_peak));
