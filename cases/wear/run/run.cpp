@@ -207,6 +207,7 @@ int runCase(const Case& c, const RunOptions& options) {
     fmt::print(notes(), "{} holds no checkpoint to resume from: starting at the beginning\n", options.out.string());
   // The case is written once there is a recording and before its first segment: a recording with a segment has its
   // case, whenever the run is killed.
+  claimFile(options.out / kProgressFile);
   if (!resume) removeEarlierResults(options.out);
   RecordingWriter writer =
       resume ? RecordingWriter::resume(options.out, layout, checkpoint) : RecordingWriter::create(options.out, layout);
@@ -237,7 +238,8 @@ int runCase(const Case& c, const RunOptions& options) {
   std::vector<WindowTimes> times;
   auto before_s = phasesOf(work.times, c.strain_limit.has_value());
   {
-    Progress progress(scenario->end_s - scenario->start_s, state.time_s - scenario->start_s);
+    Progress progress(scenario->end_s - scenario->start_s, state.time_s - scenario->start_s, stderr, " s",
+                      options.out / kProgressFile);
     try {
       steps.make();
       for (; k < windows.count(); ++k) {
@@ -278,6 +280,7 @@ int runCase(const Case& c, const RunOptions& options) {
   facts.searched_steps_s = work.times.searched_steps;
   // Resuming a finished run only writes its results again; what was measured of the run itself stays.
   if (!finished || !std::filesystem::exists(options.out / "run.json")) writeRunFacts(facts, options.out);
+  removeOwnFile(options.out / kProgressFile);
   return options.company ? 0 : finishRun(options.out);
 }
 
