@@ -73,7 +73,10 @@ TEST(CheckGirths, OfAShirtAreToldFromThoseOfItsSleeves) {
     EXPECT_EQ(g.worn.size(), 1u) << zone;
     return g.worn.empty() ? 0 : g.worn[0].rest_m / g.body_m - 1;
   };
-  EXPECT_NEAR(ease("chest"), 0.10, 0.05);
+  // Whole sleeves would more than double it. The strip of a sleeve between an arm that hangs and the chest still counts
+  // to the chest: it lies nearer to it.
+  EXPECT_GT(ease("chest"), 0.05);
+  EXPECT_LT(ease("chest"), 0.5);
   EXPECT_NEAR(ease("waist"), 0.10, 0.08);
   for (const char* arm : {"upper_arm_left", "upper_arm_right"}) {
     EXPECT_GT(ease(arm), 0.05) << arm;
@@ -103,7 +106,8 @@ TEST(CheckGirths, AFoldedCellIsSaidWithTheLargestThatIsNone) {
   EXPECT_LT(said[1], 70);
   EXPECT_GE(said[1], 35);
   const Case finer = readCase(folder.path() / "case.json", {"garment.shirt.cell=" + std::to_string(1e-3 * said[1])});
-  for (const std::string& note : buildScenario(finer)->notes) EXPECT_EQ(note.find("is folded"), std::string::npos);
+  const auto fine = buildScenario(finer);
+  for (const std::string& note : fine->notes) EXPECT_EQ(note.find("is folded"), std::string::npos) << note;
 }
 
 }  // namespace
