@@ -7,7 +7,10 @@
 namespace gambeson {
 
 std::string sentenceOf(const Stretch& s) {
-  const auto percent = [](double part) { return formatBrief(100 * part, 2) + " %"; };
+  // As many digits as tell what was reached from what is allowed.
+  int digits = 2;
+  while (digits < 5 && s.largest != s.limit && formatBrief(s.largest, digits) == formatBrief(s.limit, digits)) ++digits;
+  const auto percent = [&](double part) { return formatBrief(100 * part, digits) + " %"; };
   const std::string whose = s.garment.empty() ? "Fabric" : fmt::format("The fabric of {}", s.garment);
   return fmt::format("{} stretches by up to {}{} (99 % of it by less than {}), and {} is meant for less than {}: {}.",
                      whose, percent(s.largest), s.along.empty() ? "" : " along its " + s.along, percent(s.most),

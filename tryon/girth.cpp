@@ -115,13 +115,15 @@ std::vector<Girth> girthsAt(const Surface& s, std::span<const Vec3> rest, std::s
 
 std::vector<Girth> shortGirths(const Surface& s, std::span<const Vec3> rest, std::span<const Vec3> worn, Vec3 up,
                                double part, std::size_t most, double step_m) {
-  constexpr double kNear_m = 0.1;
+  // Less around than a wrist, or short by less than a millimetre, is no place that a body does not fit into: torn cloth
+  // has such cuts.
+  constexpr double kNear_m = 0.1, kLeast_m = 0.1, kShort_m = 1e-3;
   double low = 1e300, high = -1e300;
   for (const Vec3& x : worn) low = std::min(low, dot(x, up)), high = std::max(high, dot(x, up));
   std::vector<Girth> found;
   for (double at = (std::floor(low / step_m) + 0.5) * step_m; at < high; at += step_m)
     for (const Girth& g : girthsAt(s, rest, worn, up, at))
-      if (g.closed && g.short_m() > part * g.rest_m) found.push_back(g);
+      if (g.closed && g.rest_m > kLeast_m && g.short_m() > std::max(kShort_m, part * g.rest_m)) found.push_back(g);
   std::stable_sort(found.begin(), found.end(),
                    [](const Girth& a, const Girth& b) { return a.short_m() > b.short_m(); });
   std::vector<Girth> out;

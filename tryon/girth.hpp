@@ -25,7 +25,8 @@ std::vector<Girth> girthsAt(const Surface& surface, std::span<const Vec3> rest, 
                             double height_m);
 
 /// Of all heights, `step_m` apart, closed cuts that are stretched by more than `part` of their length, the most
-/// stretched within each 10 cm, from the shortest on, at most `most` of them.
+/// stretched within each 10 cm, from the shortest on, at most `most` of them. Cuts of less than 10 cm, or short by less
+/// than 1 mm, are none.
 std::vector<Girth> shortGirths(const Surface& surface, std::span<const Vec3> rest, std::span<const Vec3> worn, Vec3 up,
                                double part, std::size_t most = 3, double step_m = 0.01);
 

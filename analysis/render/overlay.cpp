@@ -85,6 +85,11 @@ std::optional<Overlay> layOut(const Scene& scene, const Shot& shot, const Fonts&
     else
       o.legend = {m + 0.64 * column, height - m - legend_h, width - m, height - m};
   }
+  // Beside the scene the texts stand above each other: where they would lie over each other there is no room.
+  if (o.wide && bar)
+    bottom = std::min(bottom, o.bar.top - 14 * u - kLine * fonts.text.size() * double(o.bar_title.size()));
+  if (o.wide && legend) bottom = std::min(bottom, o.legend.top);
+  if (o.wide && heading && o.block_title.bottom > bottom) return std::nullopt;
   if (o.wide) {
     o.free = {m + column + 0.6 * m, m, width - m, height - m};
   } else {

@@ -43,7 +43,7 @@ std::string answers(const ReportInput& in, const JointSummary& j) {
     return element("dt", escape(q)) + element("dd", prose(a));
   };
   std::string list = item("Peak added torque", formatNumber(sizeOf(j)) + " Nm, at the " + j.joint);
-  list += item("Side", j.side.empty() ? "none" : j.side);
+  if (!j.side.empty()) list += item("Side", j.side);
   list += item("When", seconds(j.peak_time_s));
   list += item("Cause", j.cause.empty() ? "not known" : j.cause);
   list += item("Share of the natural moment", j.natural_percent ? shareOf(j) + (in.task.empty() ? "" : " in " + in.task)
@@ -339,8 +339,10 @@ std::string formatReport(const ReportInput& in) {
                       "Highest first. The share compares the peak with the moment that the joint needs in this task "
                       "without the garment.",
                       joints(in));
+  const bool strides =
+      std::any_of(in.torques.begin(), in.torques.end(), [](const Plot& p) { return !p.marks.empty(); });
   if (!in.torques.empty())
-    body += pageSectionOf("torques", "Torque over time", "Dotted vertical lines mark the strides.",
+    body += pageSectionOf("torques", "Torque over time", strides ? "Dotted vertical lines mark the strides." : "",
                           charts(each(in.torques, lineChart)));
   if (!in.contact_charts.empty() || !in.contact_tables.empty())
     body += pageSectionOf("contact", "Where the garment presses", "Contact force of the cloth on the body.",

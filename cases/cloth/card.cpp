@@ -126,6 +126,9 @@ void bendLinearly(const CardBending& b, CardFabric& out) {
 
 void bendByLoop(const CardBending& b, CardFabric& out) {
   const double span = b.friction_per_m.value_or(kCardFriction_per_m);
+  if (!b.hysteresis_at_per_m)
+    out.assumed.push_back(
+        fmt::format("2HB_at {:g}/cm: the card does not say at which curvature 2HB was read", 0.01 * kKesWidthAt_per_m));
   if (!b.friction_per_m)
     out.assumed.push_back(
         fmt::format("K0 {}/cm: friction in bending is overcome where KES begins to read B", number(span / 100)));
@@ -134,7 +137,8 @@ void bendByLoop(const CardBending& b, CardFabric& out) {
   law.shape = shape;
   double* const last[2] = {&law.weft_Nm, &law.warp_Nm};
   for (int i = 0; i < 2; ++i) {
-    const Stops<kStops> stops = stopsOfKes(shape, {b.rigidity.of(i), b.hysteresis.of(i)}, span, *b.hysteresis_at_per_m);
+    const Stops<kStops> stops = stopsOfKes(shape, {b.rigidity.of(i), b.hysteresis.of(i)}, span,
+                                           b.hysteresis_at_per_m.value_or(kKesWidthAt_per_m));
     *last[i] = stops.last_Nm;
     law.first_Nm[static_cast<std::size_t>(i)] = stops.first_Nm;
     law.span_per_m[static_cast<std::size_t>(i)] = span;

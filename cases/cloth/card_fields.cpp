@@ -178,7 +178,8 @@ Object bendingTable() {
               "width of the loop of moment per width over curvature", "none: bending without friction");
   labNumber(table, "2HB_at", &B::hysteresis_at_per_m, "1/m", "1 1/cm",
             {.low = 0, .high = kKesCurvature_per_m, .low_open = true, .high_open = true},
-            "curvature at which 2HB was read (most laboratories: 1/cm, some 0.5 or 1.5/cm)", "required with 2HB");
+            "curvature at which 2HB was read (most laboratories: 1/cm, some 0.5 or 1.5/cm)",
+            "1/cm, said as an assumption");
   labNumber(table, "K0", &B::friction_per_m, "1/m", "0.6 1/cm", aboveTo(0, kKesCurvature_per_m),
             "curvature where all friction is overcome on first bending", "0.5/cm, said as an assumption");
   Field stops = fieldOf("stops", Kind::lists, "", between(0, 1),
@@ -215,24 +216,21 @@ Object bendingTable() {
                                                  : "is required, or B_weft and B_warp: the bending rigidity; or c");
     if (b.length_m.any() && b.hysteresis.any()) p.failAt("c", "knows no hysteresis; give B, of the same test as 2HB");
     const bool width = b.hysteresis.any();
-    if (width && !b.hysteresis_at_per_m)
-      p.failAt("2HB_at", fmt::format("is required with 2HB: the curvature at which it was read, \"1 1/cm\" say; "
-                                     "allowed: > 0 and < {} 1/m",
-                                     kKesCurvature_per_m));
     for (const auto& [key, given] :
          {std::pair("2HB_at", b.hysteresis_at_per_m.has_value()), std::pair("K0", b.friction_per_m.has_value()),
           std::pair("stops", !b.stops.empty())})
       if (given && !width) p.failAt(key, "has no meaning without 2HB; remove it");
     if (!width) return;
-    const double span = b.friction_per_m.value_or(kCardFriction_per_m);
+    const double span = b.friction_per_m.value_or(kCardFriction_per_m),
+                 read_at = b.hysteresis_at_per_m.value_or(kKesWidthAt_per_m);
     for (int i = 0; i < 2; ++i) {
       const KesBending read{b.rigidity.of(i), b.hysteresis.of(i)};
       const std::string key = b.hysteresis.both ? "2HB" : i == 0 ? "2HB_weft" : "2HB_warp";
-      const KesBending unit = readKes(Stops<kStops>{shapeOf(b), 1, 0, span}, *b.hysteresis_at_per_m);
+      const KesBending unit = readKes(Stops<kStops>{shapeOf(b), 1, 0, span}, read_at);
       if (!(unit.hysteresis_N > 0))
         p.failAt(key, fmt::format("cannot be read at {} 1/m: friction that is overcome at K0 = {} 1/m has no width "
                                   "there",
-                                  *b.hysteresis_at_per_m, span));
+                                  read_at, span));
       // B is b2 and what friction adds between 0.5 and 1.5/cm.
       if (const double most = read.rigidity_Nm * unit.hysteresis_N / unit.rigidity_Nm;
           unit.rigidity_Nm > 0 && !(read.hysteresis_N <= most))

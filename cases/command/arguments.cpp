@@ -219,7 +219,7 @@ void addRender(CLI::App& app, RenderArguments& a) {
       {"fps", {"NUMBER", "Of a film: frames a second, each the nearest recorded one [as recorded, at most 30]"}},
       {"azimuth", {"ANGLE", "From where, in degrees from the front to the left of the body, in place of the view's"}},
       {"elevation", {"ANGLE", "From where, in degrees above the horizon, in place of the view's"}},
-      {"zoom", {"NUMBER", "How much larger than what frames the garments (0.5: half as large) [1]"}}};
+      {"zoom", {"NUMBER", "How much larger than what frames --around (0.5: half as large) [1]"}}};
   for (auto& [name, text] : a.numbers)
     render.add_option(std::string("--") + name, text, about.at(name).second)->type_name(about.at(name).first);
   render.add_flag("--follow", a.request.follow, "Of a film: the camera goes along with the pelvis");
@@ -229,8 +229,15 @@ void addRender(CLI::App& app, RenderArguments& a) {
   render.add_option("--view", a.view, "From where: " + schema::joined(viewNames()))
       ->type_name("VIEW")
       ->capture_default_str();
+  render
+      .add_option(
+          "--around", a.around,
+          "What is framed: the wearer from head to foot, or closer, the garment alone: wearer, garment [wearer]")
+      ->type_name("WHAT");
   render.add_option("--size", a.size, "Pixels, width x height")->type_name("WxH")->capture_default_str();
   render.footer(
+      "gambeson check RESULTS says how many frames are recorded, and from when to when; a time between two shows the\n"
+      "nearest.\n\n"
       "Examples:\n"
       "  gambeson render results/shorts_walk -o peak.png --time peak\n"
       "  gambeson render results/shorts_walk -o back.png --field pressure --view back --time 1.35 --size 1920x1080\n"

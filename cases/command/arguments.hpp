@@ -48,7 +48,7 @@ struct DraftArguments {
 struct RenderArguments {
   FilmRequest request;
   std::string field = "stress", view = "front_right", size = "1280x960";
-  std::optional<std::string> time;
+  std::optional<std::string> time, around;
   /// Of those that are given: what schema::filmTable reads.
   std::vector<std::pair<const char*, std::optional<std::string>>> numbers{
       {"from", {}}, {"to", {}}, {"fps", {}}, {"azimuth", {}}, {"elevation", {}}, {"zoom", {}}};

@@ -141,8 +141,11 @@ std::string checkResults(const Path& dir) {
     readRecordedStructureCase(file);
     return "results of a structure";
   }
-  recordedRun(dir);
-  return "results of worn cloth";
+  const RecordedRun run = recordedRun(dir);
+  const RecordingReader& frames = run.recording;
+  if (frames.frameCount() == 0) return "results of worn cloth without a frame";
+  return fmt::format("results of worn cloth, {} frames from {:.4g} to {:.4g} s", frames.frameCount(), frames.time(0),
+                     frames.time(frames.frameCount() - 1));
 }
 
 /// JSON under any name; what is none and is not called so may be meant for another program.

@@ -302,6 +302,7 @@ void refuseFilm(const RenderArguments& a) {
   if (FilmFormat format{}; isFilmFile(a.request.output, format)) refuse("--output");
   for (const auto& [name, text] : a.numbers)
     if (text) refuse(std::string("--") + name);
+  if (a.around) refuse("--around");
   if (a.request.follow) refuse("--follow");
   if (!a.range.empty()) refuse("--range");
 }
@@ -317,6 +318,7 @@ int render(RenderArguments& a) {
   overrideValue(node, "field", a.field);
   overrideValue(node, "time", a.time.value_or("end"));
   overrideValue(node, "view", a.view);
+  if (a.around) overrideValue(node, "around", *a.around);
   const std::size_t x = a.size.find('x');
   if (x == std::string::npos)
     throw InputError({"command line", 0, "--size"},

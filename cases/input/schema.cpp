@@ -171,6 +171,11 @@ void checkAlternatives(const Object& object, const Entry& entry, bool all_known)
 void readObject(const Object& object, const Entry& entry, void* target) {
   const bool whole_file = entry.path.empty();
   const JsonNode& node = entry.node;
+  // Of what is read from a file its name alone may stand there: say how it is written.
+  const auto file = std::find_if(object.fields.begin(), object.fields.end(),
+                                 [](const Field& f) { return f.required && f.kind == Kind::path; });
+  if (node.type == JsonNode::Type::text && file != object.fields.end())
+    entry.fail(fmt::format("expected an object {{\"{0}\": {1}}}, not the text {1}", file->key, toText(node)));
   if (node.type != JsonNode::Type::object)
     entry.fail(fmt::format("expected an object {{ }} with {}, not {}", joined(keysOf(object)), describe(node)));
   Mistakes mistakes;
@@ -270,7 +275,18 @@ std::size_t readChoice(const Entry& entry, const std::vector<std::string>& choic
 }
 
 std::string closest(std::string_view wrong, const std::vector<std::string>& words) {
+  const auto has = [&](std::string_view word) { return std::find(words.begin(), words.end(), word) != words.end(); };
+  // What others call our keys.
+  constexpr std::pair<std::string_view, std::string_view> synonyms[]{
+      {"weight", "surface_density"},        {"gsm", "surface_density"},  {"areal_density", "surface_density"},
+      {"mass_per_area", "surface_density"}, {"youngs_modulus", "young"}, {"elastic_modulus", "young"}};
+  for (const auto& [other, ours] : synonyms)
+    if (wrong == other && has(ours)) return std::string(ours);
+  // A key of ours with a word behind it: "young_modulus", "poisson_ratio".
   std::string best;
+  for (const std::string& word : words)
+    if (word.size() > 2 && word.size() > best.size() && wrong.starts_with(word + "_")) best = word;
+  if (!best.empty()) return best;
   std::size_t least = std::max<std::size_t>(2, wrong.size() / 3) + 1;
   if (wrong.size() > 100) return best;
   for (const std::string& word : words) {

@@ -23,6 +23,7 @@
 #include "core/io/own_file.hpp"
 #include "tryon/pattern/flat/panel_check.hpp"
 #include "tryon/pattern/flat/panel_geometry.hpp"
+#include "tryon/pattern/flat/place_panels.hpp"
 #include "tryon/pattern/flat/regions.hpp"
 #include "tryon/pattern/garment_file.hpp"
 
@@ -85,6 +86,32 @@ std::vector<std::string> proposeRegions(FlatPattern& pattern) {
   return said;
 }
 
+/// Where nothing says how panels are cut out of the cloth, and what is assumed: that the warp runs along y, which of a
+/// sleeve that is drawn lying is across the arm.
+std::string grainText(const FlatPattern& p) {
+  std::vector<std::string> across;
+  std::size_t without = 0;
+  const std::vector<SeamPair> pairs = seamPairs(p);
+  for (std::size_t k = 0; k < p.panels.size(); ++k) {
+    if (p.panels[k].grain) continue;
+    ++without;
+    const std::optional<PanelRegion> region = regionOf(p.panels[k]);
+    if (!region || region->part != RegionPart::sleeve) continue;
+    std::vector<int> sleeve;
+    for (std::size_t i = 0; i < p.panels.size(); ++i)
+      if (const auto r = regionOf(p.panels[i]); r && r->part == RegionPart::sleeve && r->side == region->side)
+        sleeve.push_back(static_cast<int>(i));
+    const LaidPanel laid = upright(p, static_cast<int>(k), pairs, sleeve);
+    if (std::abs(laid.up.x) > std::abs(laid.up.y)) across.push_back(shown(p.panels[k].name));
+  }
+  if (without == 0) return "";
+  return fmt::format(
+      "{} no grain line: the warp is taken to run along y of the drawing{}. Where that is wrong, say it of the panel "
+      "in the written file: \"grain\": {{\"from\": [0, 0], \"to\": [\"10 cm\", 0]}} lays it along x",
+      without == p.panels.size() ? "the panels have" : fmt::format("{} panels have", without),
+      across.empty() ? "" : fmt::format(", which is across the arm in {}", fmt::join(across, ", ")));
+}
+
 void say(const ImportedPattern& in, const std::vector<std::string>& regions, std::ostream& out) {
   const FlatPattern& p = in.pattern;
   double area = 0;
@@ -125,6 +152,7 @@ void say(const ImportedPattern& in, const std::vector<std::string>& regions, std
   for (const std::string& region : regions) out << "  " << shown(region) << "\n";
   std::vector<std::string> notes = in.notes;
   for (std::string& doubt : doubtsAbout(p)) notes.push_back(std::move(doubt));
+  if (std::string grain = grainText(p); !grain.empty()) notes.push_back(std::move(grain));
   say(notes, in.dropped, out);
 }
 

@@ -43,6 +43,12 @@ Object pictureTable() {
               "the bare body the largest pressure of the motion; of cloth whose bending has the law hysteresis, the "
               "curvature that is set in it, or how much of its friction fatigue has left; or nothing")
       .choice("view", &P::view, views, "where the picture is taken from")
+      .choice("around", &P::around,
+              std::vector<std::pair<std::string, PictureAround>>{{"wearer", PictureAround::wearer},
+                                                                 {"garment", PictureAround::garment}},
+              "what the picture is framed around: the wearer from head to foot, or closer, the garments alone; where "
+              "nobody wears them both are the same")
+      .unwritten()
       .integer("width", &P::width, 64, 8192, "pixels")
       .integer("height", &P::height, 64, 8192, "pixels")
       .build();

@@ -10,12 +10,15 @@ enum class PictureTime { at, peak, end };
 /// body_pressure: on the body, without the garment, the largest over the motion at each place.
 /// set, friction: of cloth with friction in bending.
 enum class PictureField { plain, stress, pressure, strain, thickness, body_pressure, set, friction };
+/// What a picture is framed around: all of the wearer and what is worn, or the garments alone.
+enum class PictureAround { wearer, garment };
 
 struct PictureCase {
   PictureTime when = PictureTime::end;
   double time_s = 0;  ///< where `when` is `at`
   PictureField field = PictureField::stress;
   View view = View::front_right;
+  PictureAround around = PictureAround::wearer;
   int width = 1280, height = 960;
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 namespace gambeson {
 
@@ -24,24 +25,34 @@ std::string progressLine(const std::string& what, double done, double total, dou
   return line;
 }
 
-Progress::Progress(double total, double already_done, std::FILE* stream, std::string unit)
+Progress::Progress(double total, double already_done, std::FILE* stream, std::string unit, std::filesystem::path file)
     : total_(total),
       already_done_(already_done),
       stream_(stream),
       unit_(std::move(unit)),
+      file_(std::move(file)),
       terminal_(isatty(fileno(stream)) != 0) {}
 
 Progress::~Progress() {
   if (drawn_) std::fputs("\n", stream_);
 }
 
+bool Progress::isDue(Clock::time_point& last, std::chrono::milliseconds every, Clock::time_point now,
+                     double done) const {
+  if (now - last < every && done < total_) return false;
+  last = now;
+  return true;
+}
+
 void Progress::update(double done, const std::string& what) {
-  if (!terminal_) return;
   const Clock::time_point now = Clock::now();
-  if (now - last_ < std::chrono::milliseconds(200) && done < total_) return;
-  last_ = now;
+  const bool draws = terminal_ && isDue(last_, std::chrono::milliseconds(200), now, done);
+  const bool writes = !file_.empty() && isDue(written_, std::chrono::seconds(2), now, done);
+  if (!draws && !writes) return;
   const double elapsed_s = std::chrono::duration<double>(now - start_).count();
   const std::string line = progressLine(what, done, total_, already_done_, elapsed_s, unit_);
+  if (writes) std::ofstream(file_, std::ios::trunc) << line << "\n";
+  if (!draws) return;
   std::fprintf(stream_, "\r\033[K%s", line.c_str());
   std::fflush(stream_);
   drawn_ = true;

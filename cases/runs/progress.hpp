@@ -1,9 +1,10 @@
 #pragma once
-/// A line on the terminal that says how far long work is and how long it still takes. Quiet where the output is not a
-/// terminal.
+/// A line that says how far long work is and how long it still takes: on the terminal (quiet where the output is none),
+/// and in a file that whoever started it in the background can look at.
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 
 namespace gambeson {
@@ -19,23 +20,28 @@ std::string durationText(double seconds);
 
 class Progress {
  public:
-  explicit Progress(double total, double already_done = 0, std::FILE* stream = stderr, std::string unit = " s");
-  /// Ends the line.
+  /// `file`: also holds the line, written anew every two seconds; empty: none does. What cannot be written is left out.
+  explicit Progress(double total, double already_done = 0, std::FILE* stream = stderr, std::string unit = " s",
+                    std::filesystem::path file = {});
+  /// Ends the line. The file stays.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Redraws at most five times a second.
+  /// Redraws the terminal's at most five times a second.
   void update(double done, const std::string& what);
 
  private:
   using Clock = std::chrono::steady_clock;
+  bool isDue(Clock::time_point& last, std::chrono::milliseconds every, Clock::time_point now, double done) const;
+
   double total_, already_done_;
   std::FILE* stream_;
   std::string unit_;
+  std::filesystem::path file_;
   bool terminal_;
   bool drawn_ = false;
-  Clock::time_point start_ = Clock::now(), last_ = start_ - std::chrono::seconds(1);
+  Clock::time_point start_ = Clock::now(), last_ = start_ - std::chrono::hours(1), written_ = last_;
 };
 
 }  // namespace gambeson

@@ -29,7 +29,8 @@ constexpr std::array kFiles{"case.json",      "run.json",     "summary.json", "t
                             "energy.csv",     "memory.csv",   "curves.csv"};
 constexpr const char* kPictures = "snapshots";
 /// What stays when these and the recording's layout are gone, as a run begins that replaces an earlier one.
-constexpr std::array kBegun{"frames", "frames.xdmf", kPictures, kEuropeanTables, FolderLock::file, kDressingFile};
+constexpr std::array kBegun{"frames",         "frames.xdmf", kPictures,    kEuropeanTables,
+                            FolderLock::file, kDressingFile, kProgressFile};
 
 [[noreturn]] void fail(const std::string& option, const std::string& reason) {
   throw InputError({"command line", 0, option}, reason);
@@ -114,7 +115,7 @@ void checkResultsFolder(const fs::path& out, const Paths& inputs, bool resume) {
   for (const char* folder : {"frames", kPictures, kEuropeanTables}) requireFolder(out / folder);
   for (const std::string name : kFiles)
     if (!resume || name != "case.json") requireFreeOf(out / name, inputs, "--out");
-  for (const char* file : {"frames.xdmf", kDressingFile}) requireFreeOf(out / file, inputs, "--out");
+  for (const char* file : {"frames.xdmf", kDressingFile, kProgressFile}) requireFreeOf(out / file, inputs, "--out");
   if (!resume)
     for (const fs::path& file : entriesOf(out / "frames", isRecorded)) requireFreeOf(file, inputs, "--out");
   for (const fs::path& file : entriesOf(out / kPictures, isPicture)) requireFreeOf(file, inputs, "--out");

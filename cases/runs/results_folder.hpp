@@ -12,6 +12,9 @@ namespace gambeson {
 /// What a run goes on from that is stopped while it dresses.
 inline constexpr const char* kDressingFile = "dressing.h5";
 
+/// Where a run that goes on says how far it is; gone when it is done.
+inline constexpr const char* kProgressFile = "progress.txt";
+
 using Paths = std::vector<std::filesystem::path>;
 
 /// Throws InputError ("command line", --out) where a run that writes into `out` would replace something: a file that is

@@ -39,7 +39,7 @@ struct StudyInput {
   std::optional<ElasticityInput> elasticities;
   Limits limits = publishedLimits();
   std::vector<PictureCase> pictures{
-      {PictureTime::peak, 0, PictureField::stress, View::front_right, 640, 720},
+      {PictureTime::peak, 0, PictureField::stress, View::front_right, PictureAround::wearer, 640, 720},
   };
 };
 

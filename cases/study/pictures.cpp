@@ -81,7 +81,7 @@ std::vector<SidePicture> takeSidePictures(const Study& s, const Comparison& c, c
     for (std::size_t w = 0; w < s.pictures.size(); ++w) {
       const PictureCase wish = wishOf(drawn[k], w);
       PictureScale& scale = own[k][w];
-      scale = scaleOf(*scenario, recording, frameOf(recording, {}, wish), wish.field);
+      scale = scaleOf(*scenario, recording, frameOf(recording, {}, wish), wish);
       scale.high = std::max(scale.high, fieldRange(*scenario, recording, wish.field));
     }
   });

@@ -12,6 +12,34 @@ bool isOf(const std::vector<int>& links, int link) {
   return std::find(links.begin(), links.end(), link) != links.end();
 }
 
+/// One end of a piece: a share of the way from one vertex to another.
+struct CutEdge {
+  std::size_t a = 0, b = 0;
+  double share = 0;
+
+  Vec3 of(std::span<const Vec3> x) const { return x[a] + share * (x[b] - x[a]); }
+  std::array<int, 2> key() const { return {static_cast<int>(std::min(a, b)), static_cast<int>(std::max(a, b))}; }
+};
+
+/// Calls f with both ends of each piece where a plane cuts triangles.
+template <class F>
+void forCuts(const GirthPlane& p, std::span<const Vec3> x, std::span<const std::array<int, 3>> triangles, F f) {
+  const Vec3 n = cross(p.e1, p.e2);
+  for (const auto& t : triangles) {
+    std::array<CutEdge, 2> ends{};
+    std::size_t found = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto i = static_cast<std::size_t>(t[k]), j = static_cast<std::size_t>(t[(k + 1) % 3]);
+      const double a = dot(n, x[i] - p.origin), b = dot(n, x[j] - p.origin);
+      if ((a < 0) == (b < 0) || found == 2) continue;
+      ends[found++] = {i, j, a / (a - b)};
+    }
+    if (found == 2) f(ends[0], ends[1]);
+  }
+}
+
+Vec2 inPlane(const GirthPlane& p, const Vec3& x) { return {dot(x - p.origin, p.e1), dot(x - p.origin, p.e2)}; }
+
 }  // namespace
 
 std::vector<GirthPlane> girthPlanes(const Human& human, std::span<const Pose> X) {
@@ -47,21 +75,19 @@ std::vector<GirthPlane> girthPlanes(const Human& human, std::span<const Pose> X)
 
 std::vector<std::array<Vec2, 2>> cutPieces(const GirthPlane& p, std::span<const Vec3> x,
                                            std::span<const std::array<int, 3>> triangles) {
-  const Vec3 n = cross(p.e1, p.e2);
   std::vector<std::array<Vec2, 2>> out;
-  for (const auto& t : triangles) {
-    std::array<Vec2, 2> ends{};
-    std::size_t found = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 a = x[static_cast<std::size_t>(t[k])] - p.origin,
-                 b = x[static_cast<std::size_t>(t[(k + 1) % 3])] - p.origin;
-      const double da = dot(n, a), db = dot(n, b);
-      if ((da < 0) == (db < 0) || found == 2) continue;
-      const Vec3 c = a + da / (da - db) * (b - a);
-      ends[found++] = {dot(c, p.e1), dot(c, p.e2)};
-    }
-    if (found == 2) out.push_back(ends);
-  }
+  forCuts(p, x, triangles, [&](const CutEdge& a, const CutEdge& b) {
+    out.push_back({inPlane(p, a.of(x)), inPlane(p, b.of(x))});
+  });
+  return out;
+}
+
+std::vector<ClothPiece> cutCloth(const GirthPlane& p, std::span<const Vec3> x, std::span<const Vec3> rest,
+                                 std::span<const std::array<int, 3>> triangles) {
+  std::vector<ClothPiece> out;
+  forCuts(p, x, triangles, [&](const CutEdge& a, const CutEdge& b) {
+    out.push_back({{inPlane(p, a.of(x)), inPlane(p, b.of(x))}, {a.key(), b.key()}, norm(b.of(rest) - a.of(rest))});
+  });
   return out;
 }
 

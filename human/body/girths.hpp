@@ -29,6 +29,18 @@ std::vector<GirthPlane> girthPlanes(const Human& human, std::span<const Pose> li
 std::vector<std::array<Vec2, 2>> cutPieces(const GirthPlane& plane, std::span<const Vec3> x,
                                            std::span<const std::array<int, 3>> triangles);
 
+/// A piece of cloth in a plane, and how long the same cloth is at rest [m]. Neighbours have an edge of the mesh, by its
+/// vertices, in common.
+struct ClothPiece {
+  std::array<Vec2, 2> ends;
+  std::array<std::array<int, 2>, 2> edges{};
+  double rest_m = 0;
+};
+
+/// Where a plane cuts cloth that stands at `x`, and at `rest` where nothing stretches it.
+std::vector<ClothPiece> cutCloth(const GirthPlane& plane, std::span<const Vec3> x, std::span<const Vec3> rest,
+                                 std::span<const std::array<int, 3>> triangles);
+
 /// Points of the body's own surface in the plane, in its axes: of its shapes, or of its skin with vertices `skin_x`
 /// (empty without a skin), of which a triangle belongs to a link with most of its vertices.
 std::vector<Vec2> bodySection(const Human& human, const GirthPlane& plane, std::span<const Pose> link_poses,

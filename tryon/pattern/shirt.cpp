@@ -252,7 +252,6 @@ struct CutSleeve {
 /// With cells under the arm that are twice as wide as others, or wider where a cell would fold else: those of the back
 /// do beside a thin arm below a wide armhole.
 CutSleeve cutSleeve(const ArmForm& arm, const std::array<ArmholePart, 4>& armhole, const ShirtPattern& p) {
-  constexpr double kMostTurn_deg = 95;
   CutSleeve best;
   double least = HUGE_VAL;
   for (const double wider_under : {2.0, 2.5, 3.0, 3.5, 4.0}) {
@@ -265,7 +264,7 @@ CutSleeve cutSleeve(const ArmForm& arm, const std::array<ArmholePart, 4>& armhol
       turn = std::max(turn, largestTurn(cut.strips[k]));
     }
     if (turn < least) least = turn, best = std::move(cut);
-    if (least <= kMostTurn_deg * rad_per_deg) break;
+    if (least <= kFoldedTurn_rad) break;
   }
   return best;
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "cases/input/wrong_entry.hpp"
 #include "human/body/body_file.hpp"
 #include "human/body/skin.hpp"
@@ -44,9 +46,13 @@ Human fromScan(const ScanOptions& options, WearerNotes* notes) {
   for (const std::string& note : found.notes) tell(notes, fmt::format("scan {}: {}", file, note));
   tell(notes, fmt::format("scan {}: {}-pose (arms {:.0f} degrees from hanging down), {:.3f} m tall, {:.1f} litres",
                           file, found.pose, found.arms_deg, found.height_m, 1000 * found.volume_m3));
-  for (const ScanGirth& g : found.girths)
-    tell(notes, fmt::format("scan {}: {} {:.1f} cm as scanned, {:.1f} cm standing", file, g.name, 100 * g.scan_m,
-                            100 * g.standing_m));
+  std::string girths;
+  for (const ScanGirth& g : found.girths) {
+    std::string name = g.name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    girths += fmt::format("{}{} {:.1f}, {:.1f}", girths.empty() ? "" : "; ", name, 100 * g.scan_m, 100 * g.standing_m);
+  }
+  if (!girths.empty()) tell(notes, fmt::format("scan {}: girths in cm as scanned, and standing: {}", file, girths));
   return human;
 }
 

@@ -2,9 +2,34 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "analysis/ticks.hpp"
 
 namespace gambeson {
+namespace {
+
+/// A share of all works: above 100 % as a multiple, with what its sign means.
+CheckWords energyWords(double value, double limit, int digits) {
+  const std::string allowed = fmt::format(" (allowed: {} % either way)", formatNumber(limit, digits));
+  const char* sign =
+      value < 0 ? "lost energy that no work on it explains" : "gained energy that no work on it explains";
+  if (!std::isfinite(value))
+    return {"the energy of the cloth is no number", "The motion has broken down: none of its numbers can be used.",
+            true};
+  if (std::abs(value) > 100)
+    return {
+        fmt::format("the cloth {}, {} times the work of all forces together{}", sign,
+                    formatNumber(std::abs(value) / 100, 2), allowed),
+        "Either next to no work was done, as on cloth that stands still, or forces are wrong: what changes over the "
+        "motion cannot be relied on. The table of checks says how much energy that is.",
+        false};
+  return {fmt::format("the cloth {}, {} % of the work of all forces{}", sign, formatNumber(std::abs(value), digits),
+                      allowed),
+          "Averages of the torques over the motion may be off by about this share.", false};
+}
+
+}  // namespace
 
 CheckWords checkWords(const std::string& check, double value, double limit, const std::string& unit) {
   // As many digits as tell the two apart.
@@ -17,9 +42,7 @@ CheckWords checkWords(const std::string& check, double value, double limit, cons
     return {"the forces on cloth and body do not balance",
             "The body does not receive what the cloth gives: the torques are not those of this cloth. Do not use them.",
             true};
-  if (check == "Energy")
-    return {fmt::format("{} of the work of all forces is unaccounted for", much),
-            "Averages of the torques over the motion may be off by about this share.", false};
+  if (check == "Energy") return energyWords(value, limit, digits);
   if (check == "Integrator")
     return {fmt::format("the integrator made {} of the work of all forces", much),
             "Averages of the torques over the motion may be off by about this share; shorter steps make less.", false};
@@ -55,10 +78,11 @@ CheckWords checkWords(const std::string& check, double value, double limit, cons
     return {fmt::format("threads stretch more than their limit in {} of the steps", much),
             "The cloth is softer than the case says: torques are rather too small.", false};
   if (check == "Law range")
-    return {fmt::format("{} of the cloth is strained beyond the range of its law", withUnit(value)),
-            "Stress there is a guess: the energy goes on as stiff as at the table's end. A table of a wider range, or a "
-            "looser garment, settles it.",
-            false};
+    return {
+        fmt::format("{} of the cloth is strained beyond the range of its law", withUnit(value)),
+        "Stress there is a guess: the energy goes on as stiff as at the table's end. A table of a wider range, or a "
+        "looser garment, settles it.",
+        false};
   if (check.starts_with("Stretch along the ")) {
     const std::string who = check.substr(check.find(", ") + 2);
     return {fmt::format("{} is stretched by {} along its {}", who, much, check.substr(18, 4)),

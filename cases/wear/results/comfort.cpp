@@ -93,7 +93,8 @@ std::vector<Picture> takeBodyPictures(const Scenario& s, const Measured& m, cons
   for (const ComfortMeasure& z : m.comfort) high = std::max(high, z.peak_Pa);
   high = 1e3 * roundedUp(1e-3 * high);
   for (const View view : {View::front_right, View::back_left}) {
-    const PictureCase picture{PictureTime::peak, m.peak_time_s, PictureField::body_pressure, view, 800, 800};
+    const PictureCase picture{
+        PictureTime::peak, m.peak_time_s, PictureField::body_pressure, view, PictureAround::wearer, 800, 800};
     const std::filesystem::path png =
         folder / fmt::format("body_pressure_{}.png", viewNames()[static_cast<std::size_t>(view)]);
     renderBody(s, *m.body, m.body_loads, m.peak_time_s, picture, high, png);

@@ -21,6 +21,11 @@ namespace {
   throw InputError({"command line", 0, option}, why);
 }
 
+/// "36 frames from -0.5 to 0.2 s".
+std::string framesText(const RecordingReader& r) {
+  return fmt::format("{} frames from {:.4g} to {:.4g} s", r.frameCount(), r.time(0), r.time(r.frameCount() - 1));
+}
+
 /// The times that a film shows.
 struct FilmTimes {
   double fps = 25, from_s = 0;
@@ -49,7 +54,7 @@ struct Take {
   RecordedRun run;
   FrameScenes scenes;
   std::vector<int> frames;  ///< of the recording, one for each of the film
-  std::array<Vec3, 2> box{Vec3{1e30, 1e30, 1e30}, Vec3{-1e30, -1e30, -1e30}};  ///< of the garments in all of them
+  std::array<Vec3, 2> box{Vec3{1e30, 1e30, 1e30}, Vec3{-1e30, -1e30, -1e30}};  ///< of what all of them show
   double least = std::numeric_limits<double>::infinity(), most = -least;  ///< of what the colours show in all of them
   bool below = false, above = false;                                      ///< whether that lies beyond the colours
   std::optional<ColorNote> note;                                          ///< of any of them
@@ -120,6 +125,12 @@ class Filming {
     const bool peak = o_.picture.when == PictureTime::peak;
     const int frame = frameOf(recording, peak ? measure(*first.run.scenario, recording) : Measured{}, o_.picture);
     for (const auto& take : takes_) take->frames = {take->nearest(recording.time(frame))};
+    if (o_.picture.when != PictureTime::at) return;
+    const double apart = std::abs(recording.time(frame) - o_.picture.time_s);
+    const int beside = std::clamp(frame == 0 ? 1 : frame - 1, 0, recording.frameCount() - 1);
+    if (apart > 0.51 * std::abs(recording.time(frame) - recording.time(beside)) + 1e-9)
+      sayNote(fmt::format("{:g} s is not recorded: the frame at {:.4g} s is nearest, of {}", o_.picture.time_s,
+                          recording.time(frame), framesText(recording)));
   }
 
   void findTimes() {
@@ -138,7 +149,7 @@ class Filming {
     const double from = o_.from_s.value_or(start), to = o_.to_s.value_or(last);
     // Time 0 is not always recorded itself: an interval before the first frame still shows it.
     const auto outside = [&](double t) { return t < first - 1.001 * step || t > last + 1e-9; };
-    const std::string allowed = fmt::format("allowed: what is recorded, {:.4g} to {:.4g} s", first, last);
+    const std::string allowed = "allowed: what is recorded, " + framesText(takes_[0]->run.recording);
     if (outside(from)) refuse("--from", fmt::format("{:g} s is not recorded; {}", from, allowed));
     if (outside(to)) refuse("--to", fmt::format("{:g} s is not recorded; {}", to, allowed));
     if (!(from < to)) refuse("--to", fmt::format("{:g} s does not come after --from, {:g} s; {}", to, from, allowed));
@@ -175,21 +186,23 @@ class Filming {
       for (const int k : take->frames) {
         if (k == last) continue;
         last = k;
-        PictureScale own = scaleOf(*take->run.scenario, recording, k, o_.picture.field);
+        PictureScale own = scaleOf(*take->run.scenario, recording, k, o_.picture);
         if (film_) own.high = 0;  // fieldRange has what a film's frames have in common
         scale_.include(own);
         if (film_ && !take->note) take->note = take->scenes.noteOf(k);
         const Frame recorded = recording.frame(k);
         for (const double v : shownOf(*take->run.scenario, recorded, o_.picture.field))
           take->least = std::min(take->least, v), take->most = std::max(take->most, v);
-        const std::vector<Vec3> x = positionsOf(recorded);
-        const std::array<Vec3, 2> garment = boxOf(x, 0);
+        PlacedBodies placed(*take->run.scenario);
+        placed.moveTo(recorded.time_s);
+        const std::array<Vec3, 2> shown =
+            shownBox(*take->run.scenario, placed, positionsOf(recorded), o_.picture.around);
         const Vec3 o = origin(*take, recording.time(k));
         for (int c = 0; c < 3; ++c) {
-          take->box[0][c] = std::min(take->box[0][c], garment[0][c] - o[c]);
-          take->box[1][c] = std::max(take->box[1][c], garment[1][c] - o[c]);
+          take->box[0][c] = std::min(take->box[0][c], shown[0][c] - o[c]);
+          take->box[1][c] = std::max(take->box[1][c], shown[1][c] - o[c]);
         }
-        margin_m = std::max(margin_m, 0.5 * (own.box_m.x - (garment[1].x - garment[0].x)));
+        margin_m = std::max(margin_m, pictureMargin(positionsOf(recorded)));
       }
       for (int c = 0; c < 3; ++c) size[c] = std::max(size[c], take->box[1][c] - take->box[0][c] + 2 * margin_m);
     }

@@ -59,7 +59,34 @@ std::optional<RenderMesh> markedPart(const RenderMesh& mesh, const std::vector<c
   return part;
 }
 
+RenderMesh meshOfObstacle(const Scenario& s, const PlacedBodies& placed, std::size_t o) {
+  const auto& obstacle = s.model->obstacles[o];
+  return meshOf(obstacle.deforms ? Shape(placed.deformedMesh(static_cast<int>(o))) : obstacle.shape,
+                placed.placements()[o], kBodyColor);
+}
+
 }  // namespace
+
+std::array<Vec3, 2> shownBox(const Scenario& s, const PlacedBodies& placed, std::span<const Vec3> x,
+                             PictureAround around) {
+  std::array<Vec3, 2> box = boxOf(x, 0);
+  if (around == PictureAround::garment || !s.human) return box;
+  const int links = static_cast<int>(s.human->skeleton.links.size());
+  for (std::size_t o = 0; o < s.model->obstacles.size(); ++o) {
+    if (s.body_of_obstacle[o] >= links) continue;
+    const std::array<Vec3, 2> own = boxOf(meshOfObstacle(s, placed, o).vertices, 0);
+    for (int c = 0; c < 3; ++c) {
+      box[0][c] = std::min(box[0][c], own[0][c]);
+      box[1][c] = std::max(box[1][c], own[1][c]);
+    }
+  }
+  return box;
+}
+
+double pictureMargin(std::span<const Vec3> x) {
+  const std::array<Vec3, 2> garments = boxOf(x, 0);
+  return 0.06 * norm(garments[1] - garments[0]);
+}
 
 std::vector<Vec3> positionsOf(const Frame& frame) {
   std::vector<Vec3> x(frame.positions.size() / 3);
@@ -95,9 +122,7 @@ std::vector<double> FrameScenes::depths(const std::vector<Vec3>& x) const {
 void FrameScenes::addBodies(Scene& scene, double time_s) const {
   for (std::size_t o = 0; o < s_.model->obstacles.size(); ++o) {
     if (s_.stage->leavesOut(static_cast<int>(o), time_s)) continue;
-    scene.meshes.push_back(meshOf(s_.model->obstacles[o].deforms ? Shape(placed_.deformedMesh(static_cast<int>(o)))
-                                                                 : s_.model->obstacles[o].shape,
-                                  placed_.placements()[o], kBodyColor));
+    scene.meshes.push_back(meshOfObstacle(s_, placed_, o));
   }
 }
 
@@ -155,8 +180,8 @@ DrawnFrame FrameScenes::at(int index, const PictureCase& picture, const Viewpoin
     scene.meshes.push_back(std::move(*marked));
     drawn.shot.note = note();
   }
-  const std::array<Vec3, 2> garment = boxOf(x, 0);
-  const Vec3 middle = 0.5 * (garment[0] + garment[1]);
+  const std::array<Vec3, 2> shown = shownBox(s_, placed_, x, picture.around);
+  const Vec3 middle = 0.5 * (shown[0] + shown[1]);
   addArrows(scene, forceClusters(placed_, frame, x), towards, scale.most_N, 0.14 * scale.size_m,
             s_.human ? "body" : "obstacle");
   scene.focus = {middle - 0.5 * scale.box_m, middle + 0.5 * scale.box_m};

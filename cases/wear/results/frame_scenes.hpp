@@ -23,7 +23,7 @@ class FrameScenes {
   FrameScenes(const Scenario& scenario, const RecordingReader& recording);
 
   /// The frame from a viewpoint, in colours from `low` (in the unit of the bar) to the scale's end, framed around the
-  /// garment's middle.
+  /// middle of what the picture shows.
   ///
   /// Cloth that touches a body is drawn before it: its vertices stand the distance that contact keeps nearer to the
   /// viewer, across the cloth. Facets between them would else sink into a round body. Vertices inside of a body come
@@ -46,6 +46,12 @@ class FrameScenes {
   double touching_m_ = 0;  ///< the largest distance that contact keeps
 };
 
+/// The box around garments whose samples are at `x`, or around them and all that is the wearer's own body where
+/// `placed` has it.
+std::array<Vec3, 2> shownBox(const Scenario& s, const PlacedBodies& placed, std::span<const Vec3> x,
+                             PictureAround around);
+/// What is left free on every side of it [m], for the arrows on garments whose samples are at `x`.
+double pictureMargin(std::span<const Vec3> x);
 /// Positions of a frame's samples.
 std::vector<Vec3> positionsOf(const Frame& frame);
 /// Against gravity; z without.

@@ -212,7 +212,8 @@ struct SurfaceDepth {
   int points = 0;
 };
 SurfaceDepth surfaceDepth(const Scenario& scenario, const RecordingReader& recording);
-/// The widest gap between both sides of a sewn seam, at points all along (SewnRows::pairs), at every frame of the motion.
+/// The widest gap between both sides of a sewn seam, at points all along (SewnRows::pairs), at every frame of the
+/// motion.
 struct SeamGap {
   double gap_m = 0, cells = 0;  ///< and in sides of the smaller cell there
   double time_s = 0;
@@ -275,13 +276,14 @@ struct FallMeasure {
 };
 
 /// The girth of a part of the body by the tape (human/body/girths.hpp), and how long the cloth of each garment is that
-/// goes around it in the same plane [m], as the motion begins. Their difference is the ease.
+/// goes around it in the same plane [m], as the motion begins: as it is worn, and as it was cut, at rest. What it was
+/// cut to be wider than the body is the ease.
 struct GirthMeasure {
   std::string zone;
   double body_m = 0;
   struct Worn {
     std::string garment;  ///< empty where there is one only
-    double length_m = 0;
+    double length_m = 0, rest_m = 0;
   };
   std::vector<Worn> worn;  ///< those that go around it
 };

@@ -17,9 +17,6 @@
 namespace gambeson {
 namespace {
 
-/// Beyond the garment on every side.
-double marginOf(double size_m) { return 0.06 * size_m; }
-
 double percentile99(const std::vector<double>& values, const std::vector<double>& areas, double unit) {
   return values.empty() ? 0 : roundedUp(unit * weightedPercentile(values, areas, 0.99)) / unit;
 }
@@ -78,17 +75,18 @@ void PictureScale::include(const PictureScale& other) {
   for (int c = 0; c < 3; ++c) box_m[c] = std::max(box_m[c], other.box_m[c]);
 }
 
-PictureScale scaleOf(const Scenario& s, const RecordingReader& recording, int index, PictureField field) {
+PictureScale scaleOf(const Scenario& s, const RecordingReader& recording, int index, const PictureCase& picture) {
+  const PictureField field = picture.field;
   PictureScale scale;
   if (field == PictureField::body_pressure) return scale;  // of the whole motion: fieldRange
   const Frame frame = recording.frame(index);
   const std::vector<Vec3> x = positionsOf(frame);
-  const std::array<Vec3, 2> garment = boxOf(x, 0);
-  scale.size_m = norm(garment[1] - garment[0]);
-  const double margin_m = marginOf(scale.size_m);
-  scale.box_m = garment[1] - garment[0] + 2 * Vec3{margin_m, margin_m, margin_m};
   PlacedBodies placed(s);
   placed.moveTo(frame.time_s);
+  const std::array<Vec3, 2> shown = shownBox(s, placed, x, picture.around);
+  scale.size_m = norm(shown[1] - shown[0]);
+  const double margin_m = pictureMargin(x);
+  scale.box_m = shown[1] - shown[0] + 2 * Vec3{margin_m, margin_m, margin_m};
   scale.most_N = largestForce(forceClusters(placed, frame, x));
   if (field == PictureField::plain) return scale;
   const FieldWords words = fieldWords(field);

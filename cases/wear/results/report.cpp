@@ -72,8 +72,9 @@ void addPlots(const Measured& m, ReportInput& in) {
       if (isTouched(j) && titleOf(j) == title) {
         if (!highest || std::abs(j.peak.value) > std::abs(highest->peak.value)) highest = &j;
         unit = j.prismatic ? "N" : "Nm";
-        plot.series.push_back(
-            {j.side.empty() ? j.name : j.side, unit, m.added.time_s, m.added.of(j.joint), toneOf(j.side)});
+        std::string name = j.side.empty() ? j.name : j.side;
+        std::replace(name.begin(), name.end(), '_', ' ');
+        plot.series.push_back({name, unit, m.added.time_s, m.added.of(j.joint), toneOf(j.side)});
       }
     plot.caption = signOf(highest->movement);
     if (!highest->prismatic) plot.peak_note = nameOf(pushOf(highest->peak.value, highest->rate_at_peak));
@@ -130,17 +131,18 @@ void addStress(const Scenario& s, const Measured& m, ReportInput& in) {
 void addGirths(const Measured& m, ReportInput& in) {
   Table table{
       "Girths of the body and of what is worn",
-      "As the motion begins: the body by the tape, and the cloth that goes around it in the same plane; ease is "
-      "their difference.",
-      {"zone", "garment", "body [cm]", "garment [cm]", "ease [cm]", "ease [%]"},
+      "As the motion begins: the body by the tape, and the cloth that goes around it in the same plane, as it was cut "
+      "and as it is worn. Ease is what it was cut wider than the body; where it is negative the cloth has to stretch.",
+      {"zone", "garment", "body [cm]", "cut [cm]", "ease [cm]", "ease [%]", "worn [cm]"},
       {}};
   for (const GirthMeasure& g : m.girths) {
     std::string zone = g.zone;
     std::replace(zone.begin(), zone.end(), '_', ' ');
-    if (g.worn.empty()) table.rows.push_back({zone, "", TableCell(100 * g.body_m, 4), "", "", ""});
+    if (g.worn.empty()) table.rows.push_back({zone, "", TableCell(100 * g.body_m, 4), "", "", "", ""});
     for (const GirthMeasure::Worn& w : g.worn)
-      table.rows.push_back({zone, w.garment, TableCell(100 * g.body_m, 4), TableCell(100 * w.length_m, 4),
-                            TableCell(100 * (w.length_m - g.body_m)), TableCell(100 * (w.length_m / g.body_m - 1))});
+      table.rows.push_back({zone, w.garment, TableCell(100 * g.body_m, 4), TableCell(100 * w.rest_m, 4),
+                            TableCell(100 * (w.rest_m - g.body_m)), TableCell(100 * (w.rest_m / g.body_m - 1)),
+                            TableCell(100 * w.length_m, 4)});
   }
   if (!table.rows.empty()) in.stress_tables.push_back(std::move(table));
 }

@@ -45,9 +45,10 @@ std::vector<Picture> takePictures(const Scenario& s, const RecordingReader& reco
                                   const std::filesystem::path& folder, std::vector<std::string>& failures) {
   std::vector<Picture> pictures;
   std::filesystem::create_directories(folder);
-  // Arrows have one scale in all of them, and each field has one range of colours.
+  // An arrow is as long as the picture is large, for one force in all of them; each field has one range of colours.
   std::map<PictureField, double> highest;
-  PictureScale scale;
+  std::map<PictureAround, PictureScale> scales;
+  double most_N = 0;
   for (const bool draw : {false, true})
     for (const PictureCase& picture : s.definition.output.pictures) {
       std::string name;
@@ -55,14 +56,16 @@ std::vector<Picture> takePictures(const Scenario& s, const RecordingReader& reco
         const int frame = frameOf(recording, m, picture);
         if (!draw) {
           if (!highest.contains(picture.field)) highest[picture.field] = fieldRange(s, recording, picture.field);
-          const PictureScale own = scaleOf(s, recording, frame, picture.field);
+          const PictureScale own = scaleOf(s, recording, frame, picture);
           highest[picture.field] = std::max(highest[picture.field], own.high);
-          scale.include(own);
+          scales[picture.around].include(own);
+          most_N = std::max(most_N, own.most_N);
           continue;
         }
         const double time = recording.time(frame);
         name = pictureName(pictures.size() + 1, picture, time);
-        scale.high = highest[picture.field];
+        PictureScale scale = scales[picture.around];
+        scale.high = highest[picture.field], scale.most_N = most_N;
         renderFrame(s, recording, frame, picture, scale, folder / name);
         pictures.push_back({folder / name, captionOf(picture, time, s.definition.comfort.sensor_m), ""});
       } catch (const RunError& e) {

@@ -75,14 +75,14 @@ double fieldRange(const Scenario& scenario, const RecordingReader& recording, Pi
 struct PictureScale {
   double high = 0;    ///< top of the colour bar
   double most_N = 0;  ///< force of the longest arrow; 0: no arrows
-  double size_m = 0;  ///< of the garment, what arrows and margins are measured by
-  Vec3 box_m;         ///< that the picture frames, around the garment's middle
+  double size_m = 0;  ///< of what is shown, what arrows are measured by
+  Vec3 box_m;         ///< that the picture frames, around the middle of what it shows
   /// The larger of both in everything.
   void include(const PictureScale& other);
 };
 
 /// Of one frame alone: colours up to the 99th percentile by area, rounded up as that of fieldRange.
-PictureScale scaleOf(const Scenario& scenario, const RecordingReader& recording, int frame, PictureField field);
+PictureScale scaleOf(const Scenario& scenario, const RecordingReader& recording, int frame, const PictureCase& picture);
 
 /// Draws one frame as `picture` asks (its time is not looked at). Colours begin at 0.
 void renderFrame(const Scenario& scenario, const RecordingReader& recording, int frame, const PictureCase& picture,

@@ -409,7 +409,8 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
   for (const GirthMeasure& g : m.girths) {
     Json worn = Json::array();
     for (const GirthMeasure::Worn& w : g.worn)
-      worn.push_back({{"garment", w.garment}, {"length_m", w.length_m}, {"ease_m", w.length_m - g.body_m}});
+      worn.push_back(
+          {{"garment", w.garment}, {"length_m", w.length_m}, {"rest_m", w.rest_m}, {"ease_m", w.rest_m - g.body_m}});
     j["girths"].push_back({{"zone", g.zone}, {"body_m", g.body_m}, {"worn", worn}});
   }
   if (s.definition.human && s.definition.human->measures) {

@@ -37,7 +37,7 @@ std::string causeOf(const JointMeasure& m, const std::optional<Strides>& strides
                        who);
   else
     text = fmt::format("{} of the {}{}",
-                       still                ? "rest"
+                       still                ? "standstill"
                        : m.rate_at_peak > 0 ? words.to_above
                                             : words.to_below,
                        m.part, who);
@@ -77,22 +77,47 @@ std::string stretchMeaning(const Case& c, std::span<const Stretch> measured) {
   const std::string large =
       most > 0.1 ? fmt::format(", {:.0f} % are {:.0f} cm", 100 * most, 100 * (std::sqrt(1 + 2 * most) - 1)) : "";
   const std::string law =
-      allTables(c) ? "The fabric\u2019s law is a table: beyond its range stress is a guess."
+      allTables(c) ? "a table, beyond whose range stress is a guess"
                    : fmt::format(
-                         "The fabric\u2019s law is a straight line, which its source takes for strains below "
-                         "{} % (Zheng 2013, eq. 2.13): beyond that stress is extrapolated, and a real fabric "
-                         "may be stiffer.",
+                         "a straight line, which its source takes for strains below {} % (Zheng 2013, eq. 2.13); "
+                         "beyond that stress is extrapolated, and a real fabric may be stiffer",
                          100 * kStrainOfLaw);
+  // Two limits that readers take for one: what the fabric stands, and how far its law is known.
+  const std::string limits =
+      stated.empty()
+          ? fmt::format(
+                "Nobody states how far this fabric may be stretched (limit_strain of a fabric, elongation of a "
+                "card), so that the limit that holds is how far its law is known: the law is {}.",
+                law)
+          : fmt::format(
+                "The limit that holds is what the fabric stands by its card or case, less than {}: checks and "
+                "lights go by it, and beyond it the fabric may not come back, or tear. It is along the threads; "
+                "pictures show "
+                "the largest stretch in any direction, which is more where cloth gives way on the bias. How far its "
+                "law is known "
+                "is another thing, which fails no check: the law is {}.",
+                fmt::join(stated, ", "), law);
   return fmt::format(
-      "Stretch is the Green-Lagrange strain: 1 % is 1 cm on 1 m{}. {}{} {} A largest value far above what 99 % of the "
+      "Stretch is the Green-Lagrange strain: 1 % is 1 cm on 1 m{}. {}{} A largest value far above what 99 % of the "
       "cloth stays below is that of single spots, at corners and seams.",
-      large,
-      stated.empty() ? "The case does not state how far its fabric may stretch, so that the range of its law counts."
-                     : fmt::format("The case states how far its fabric may stretch, and that limit counts: less than "
-                                   "{}.",
-                                   fmt::join(stated, ", ")),
-      c.strain_limit ? " The computation holds the strain of weft and warp to a limit of its own." : "", law);
+      large, limits, c.strain_limit ? " The computation holds the strain of weft and warp to a limit of its own." : "");
 }
+
+namespace {
+
+/// "Here the cloth lost 0.31 J more than these works explain, which are 0.063 J in all: as much as lifts it by 24 cm."
+std::string energyHere(const EnergyMeasure& e) {
+  const double drift = e.drift();
+  if (!(e.lift > 0) || !std::isfinite(drift)) return "";
+  const double lift_mm = 1e3 * EnergyMeasure::lift_m * std::abs(drift) / e.lift;
+  return fmt::format(
+      "; here the cloth {} {} J more than these explain, which are {} J in all{}: as much as lifts it by {} mm",
+      drift < 0 ? "lost" : "gained", formatNumber(std::abs(drift), 2), formatNumber(e.absolute, 2),
+      e.absolute < e.lift ? fmt::format(", and to lift it by 1 mm takes {} J", formatNumber(e.lift, 2)) : "",
+      formatNumber(lift_mm, 2));
+}
+
+}  // namespace
 
 std::vector<AuditCheck> auditOf(const Measured& m) {
   std::vector<AuditCheck> checks{
@@ -100,12 +125,15 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
        "in every step: the cloth's change of momentum against gravity, drag, supports and what the body's own ledger "
        "received; the largest"},
       {"Energy", 100 * m.energy.relative(), m.energy.integrator ? 1e-4 : 5., "%",
-       m.energy.integrator
-           ? "over the motion: the change of the total energy against the works of contact, drag and supports and what "
-             "the integrator itself made or took, of the sum of the absolute works, or of what lifts the cloth by 1 mm "
-             "where that is more"
-           : "over the motion: the change of the total energy against the works of contact, drag and supports, "
-             "of the sum of the absolute works, or of what lifts the cloth by 1 mm where that is more"},
+       (m.energy.integrator
+            ? "over the motion: the change of the total energy against the works of contact, drag and supports and "
+              "what "
+              "the integrator itself made or took, of the sum of the absolute works, or of what lifts the cloth by 1 "
+              "mm "
+              "where that is more"
+            : "over the motion: the change of the total energy against the works of contact, drag and supports, "
+              "of the sum of the absolute works, or of what lifts the cloth by 1 mm where that is more") +
+           energyHere(m.energy)},
       {"Penetration", 1e3 * m.steps.deepest_m, 0.2, "mm",
        "the deepest point of the cloth's samples inside the body, over the motion"},
       {"Contact solver",

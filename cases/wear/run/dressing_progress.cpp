@@ -1,5 +1,6 @@
 #include "cases/wear/run/dressing_progress.hpp"
 
+#include "cases/runs/results_folder.hpp"
 #include "cases/wear/recording/scene_fields.hpp"
 #include "cases/wear/recording/state_checkpoint.hpp"
 #include "core/io/own_file.hpp"
@@ -55,7 +56,9 @@ DressingProgress::DressingProgress(std::filesystem::path file, std::string ident
 }
 
 void DressingProgress::show(const std::string& garment, double start_s) {
-  shown_ = std::make_unique<Progress>(-start_s);
+  // Of a garment that was stopped on the way, what is done already took no time here.
+  shown_ = std::make_unique<Progress>(-start_s, state_ ? state_->time_s - start_s : 0, stderr, " s",
+                                      file_.empty() ? file_ : file_.parent_path() / kProgressFile);
   garment_ = garment, start_s_ = start_s;
 }
 

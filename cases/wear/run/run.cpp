@@ -85,15 +85,47 @@ bool changeSupports(double from_s, double to_s, Scenario& s, State& state, Recor
   return true;
 }
 
-/// "girth of the hip: body 98.3 cm; shorts 106.2 cm, ease 7.9 cm (8.0 %)", in centimetres as tailors say them.
-std::string girthLine(const GirthMeasure& g) {
-  std::string zone = g.zone;
+std::string easeText(double cut_m, double body_m) {
+  return fmt::format("ease {:.1f} cm ({:.1f} %)", 100 * (cut_m - body_m), 100 * (cut_m / body_m - 1));
+}
+
+/// The body's zone ("thigh_left") as panels are measured there ("left thigh").
+std::string zoneOfPanels(std::string zone) {
+  for (const std::string side : {"left", "right"})
+    if (zone.ends_with("_" + side)) zone = side + " " + zone.substr(0, zone.size() - side.size() - 1);
   std::replace(zone.begin(), zone.end(), '_', ' ');
-  std::string line = fmt::format("girth of the {}: body {:.1f} cm", zone, 100 * g.body_m);
-  for (const GirthMeasure::Worn& w : g.worn)
-    line += fmt::format("; {} {:.1f} cm, ease {:.1f} cm ({:.1f} %)", w.garment.empty() ? "garment" : w.garment,
-                        100 * w.length_m, 100 * (w.length_m - g.body_m), 100 * (w.length_m / g.body_m - 1));
-  return line;
+  return zone;
+}
+
+/// In centimetres as tailors say them: "girth of the hip: body 98.3 cm; shorts 106.2 cm, ease 7.9 cm (8.0 %)" for each
+/// zone that a garment goes around. Flat panels are measured at a height of their own, where the body may be another:
+/// "...; panels of shirt 112.0 cm at 1.25 m, where the body is 99.8 cm: ease 12.2 cm (12.2 %)". Then one line of the
+/// zones that nothing goes around.
+std::vector<std::string> girthLines(const Scenario& s, const std::vector<GirthMeasure>& girths) {
+  std::vector<std::string> lines;
+  std::string bare;
+  for (const GirthMeasure& g : girths) {
+    const std::string zone = zoneOfPanels(g.zone);
+    std::string worn;
+    for (const GirthMeasure::Worn& w : g.worn)
+      worn += fmt::format("; {} {:.1f} cm, {}", w.garment.empty() ? "garment" : w.garment, 100 * w.rest_m,
+                          easeText(w.rest_m, g.body_m));
+    for (std::size_t k = 0; k < s.panel_girths.size(); ++k)
+      for (const PanelGirth& p : s.panel_girths[k])
+        if (p.where == zone) {
+          const std::string& name = s.definition.garments[k].name;
+          worn += fmt::format("; panels{} {:.1f} cm at {:.2f} m, where the body is {:.1f} cm: {}",
+                              name.empty() ? "" : " of " + name, 100 * p.panels_m, p.height_m, 100 * p.body_m,
+                              easeText(p.panels_m, p.body_m));
+        }
+    const std::string body = fmt::format("{:.1f} cm", 100 * g.body_m);
+    if (worn.empty())
+      bare += (bare.empty() ? "" : ", ") + zone + " " + body;
+    else
+      lines.push_back(fmt::format("girth of the {}: body {}{}", zone, body, worn));
+  }
+  if (!bare.empty()) lines.push_back("girths that nothing is seen to go around: " + bare);
+  return lines;
 }
 
 /// What is to be known before results: what bears on them, and what was found in files.
@@ -131,7 +163,8 @@ std::vector<std::string> checkRun(const Case& c) {
   lines.insert(lines.end(), scenario->facts.begin(), scenario->facts.end());
   std::vector<Vec3> x(static_cast<std::size_t>(scenario->model->surface.size()));
   scenario->model->surface.WT.multiply<Vec3>(state.p, x);
-  for (const GirthMeasure& girth : girthsAt(*scenario, x, scenario->start_s)) lines.push_back(girthLine(girth));
+  const std::vector<std::string> girths = girthLines(*scenario, girthsAt(*scenario, x, scenario->start_s));
+  lines.insert(lines.end(), girths.begin(), girths.end());
   return lines;
 }
 
@@ -174,6 +207,7 @@ int runCase(const Case& c, const RunOptions& options) {
     fmt::print(notes(), "{} holds no checkpoint to resume from: starting at the beginning\n", options.out.string());
   // The case is written once there is a recording and before its first segment: a recording with a segment has its
   // case, whenever the run is killed.
+  claimFile(options.out / kProgressFile);
   if (!resume) removeEarlierResults(options.out);
   RecordingWriter writer =
       resume ? RecordingWriter::resume(options.out, layout, checkpoint) : RecordingWriter::create(options.out, layout);
@@ -204,7 +238,8 @@ int runCase(const Case& c, const RunOptions& options) {
   std::vector<WindowTimes> times;
   auto before_s = phasesOf(work.times, c.strain_limit.has_value());
   {
-    Progress progress(scenario->end_s - scenario->start_s, state.time_s - scenario->start_s);
+    Progress progress(scenario->end_s - scenario->start_s, state.time_s - scenario->start_s, stderr, " s",
+                      options.out / kProgressFile);
     try {
       steps.make();
       for (; k < windows.count(); ++k) {
@@ -245,6 +280,7 @@ int runCase(const Case& c, const RunOptions& options) {
   facts.searched_steps_s = work.times.searched_steps;
   // Resuming a finished run only writes its results again; what was measured of the run itself stays.
   if (!finished || !std::filesystem::exists(options.out / "run.json")) writeRunFacts(facts, options.out);
+  removeOwnFile(options.out / kProgressFile);
   return options.company ? 0 : finishRun(options.out);
 }
 

@@ -56,6 +56,7 @@ void makeHuman(const Case& c, MadeBodies& s) {
   s.air_ramp_s = made.air_ramp_s;
   s.hurdle = made.hurdle;
   s.notes.insert(s.notes.end(), made.notes.begin(), made.notes.end());
+  s.facts.insert(s.facts.end(), made.facts.begin(), made.facts.end());
   if (s.human->skin && !(kind.ours && c.human->skin)) noteFolds(*c.human, s);
   s.feet = footReport(*s.human, *s.motion, c.time.duration_s.value_or(s.motion->duration()));
   if (s.feet && !kind.tells_feet && !plausible(*s.feet))

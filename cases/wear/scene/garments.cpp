@@ -6,7 +6,6 @@
 
 #include "cases/cloth/noise.hpp"
 #include "cases/input/wrong_entry.hpp"
-#include "cases/wear/case/garments/kind.hpp"
 #include "cases/wear/scene/largest.hpp"
 #include "core/cloth/block_law.hpp"
 #include "core/cloth/draft/areas.hpp"
@@ -15,6 +14,7 @@
 #include "human/files/units.hpp"
 #include "human/motion/standing.hpp"
 #include "tryon/pattern/flat/standing_body.hpp"
+#include "tryon/pattern/turn.hpp"
 
 namespace gambeson {
 namespace {
@@ -58,7 +58,7 @@ struct Wearer {
 };
 
 GarmentMaking making(const Case& c, const GarmentCase& worn, const Wearer& w, std::span<const Worn> under,
-                     std::vector<std::string>* fit) {
+                     GarmentFit* fit) {
   return {worn,
           fabricOf(c, worn),
           layerOf(c, worn),
@@ -70,7 +70,7 @@ GarmentMaking making(const Case& c, const GarmentCase& worn, const Wearer& w, st
 }
 
 Garment makeGarment(const Case& c, const GarmentCase& worn, const Wearer& wearer, std::span<const Worn> under,
-                    std::vector<std::string>* fit = nullptr) {
+                    GarmentFit* fit = nullptr) {
   Garment garment = kindOf(worn).make(making(c, worn, wearer, under, fit));
   for (std::size_t p = garment.patch_names.size(); p < garment.patches.size(); ++p)
     garment.patch_names.push_back("patch_" + std::to_string(p));
@@ -97,11 +97,38 @@ std::string wearerOf(const HumanCase& h) {
   return h.segments.empty() ? h.urdf.filename().string() : "the human between these markers";
 }
 
+/// Says where a cell of what was drafted is folded, and the largest cell of which none is.
+void noteFolds(const Garment& garment, const Case& c, const GarmentCase& worn, const Wearer& wearer,
+               std::span<const Worn> under, GarmentFit& fit) {
+  if (!kindOf(worn).drafted) return;
+  const auto turn = [](const Garment& g, std::size_t* at = nullptr) {
+    double most = 0;
+    for (std::size_t p = 0; p < g.patches.size(); ++p)
+      if (const double own = largestTurn(g.patches[p]); own > most) {
+        most = own;
+        if (at) *at = p;
+      }
+    return most;
+  };
+  std::size_t at = 0;
+  const double most = turn(garment, &at);
+  if (!(most > kFoldedTurn_rad)) return;
+  const std::string fine = largestOf(
+      worn, "cell", [&](const GarmentCase& g) { return turn(makeGarment(c, g, wearer, under)) <= kFoldedTurn_rad; });
+  fit.notes.push_back(
+      fmt::format("{}a cell of \"{}\" turns by {:.0f} degrees and is folded: steps get short there, and it may cross "
+                  "what is beside it; {}",
+                  worn.name.empty() ? "" : worn.name + ": ", garment.patch_names[at], most / rad_per_deg,
+                  fine.empty() ? "no smaller cell mends that" : "the largest \"cell\" without one is " + fine));
+}
+
 /// What cannot be drafted is said with what can.
 Garment tryGarment(const Case& c, const GarmentCase& worn, const Wearer& wearer, std::span<const Worn> under,
-                   std::vector<std::string>* fit) {
+                   GarmentFit* fit) {
   try {
-    return makeGarment(c, worn, wearer, under, fit);
+    Garment garment = makeGarment(c, worn, wearer, under, fit);
+    if (fit) noteFolds(garment, c, worn, wearer, under, *fit);
+    return garment;
   } catch (const InputError& e) {
     if (!wearer.form || !c.human || !kindOf(worn).drafted || !e.where().file.empty()) throw;
     sayLargest(e, worn, wearerOf(*c.human), [&](const GarmentCase& g) { makeGarment(c, g, wearer, under); });
@@ -147,20 +174,22 @@ Posture puttingOnPosture(const Case& c, const GarmentCase& worn, const Human& hu
   return kindOf(worn).as_scanned(worn) ? postureOfSkin(human) : dressingPosture(c, human);
 }
 
-std::vector<Garment> draftGarments(const Case& c, const Human* human, std::vector<std::string>* fit) {
+std::vector<Garment> draftGarments(const Case& c, const Human* human, std::vector<GarmentFit>* fits) {
   Wearer wearer;
   if (human) wearer.form.emplace(*human);
   if (human && !human->shapes.empty()) wearer.human = human;
   std::vector<Garment> garments;
   garments.reserve(c.garments.size());  // those above point to those below
   std::vector<Worn> under;
+  if (fits) fits->assign(c.garments.size(), {});
   ClothSize size;
   for (std::size_t k = 0; k < c.garments.size(); ++k) {
     const GarmentCase& worn = c.garments[k];
     const std::string at = fmt::format("garments[{}]", k), shape = at + "." + kindOf(worn).word;
     underKey(worn.fabric ? at + ".fabric" : "fabric", [&] { checkFabric(fabricOf(c, worn), "fabric"); });
     ClothSize(size).add(kindOf(worn).cells(worn), worn.samples_per_cell, shape);
-    garments.push_back(underKey(shape, [&] { return tryGarment(c, worn, wearer, under, fit); }));
+    garments.push_back(
+        underKey(shape, [&] { return tryGarment(c, worn, wearer, under, fits ? &(*fits)[k] : nullptr); }));
     size.add(cellsOf(garments.back()), worn.samples_per_cell, shape);
     if (kindOf(worn).isMesh()) continue;
     double area = 0;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cases/wear/case/case.hpp"
+#include "cases/wear/case/garments/kind.hpp"
 #include "core/cloth/draft/mesh_draft.hpp"
 #include "human/body/body.hpp"
 #include "human/motion/motion.hpp"
@@ -12,9 +13,9 @@
 namespace gambeson {
 
 /// One garment each, in the case's order, in place (`position`, `weft_angle`), with fabrics and patch names. Those that
-/// are drafted lie over those before them. `human` is null where the case has none. `fit`: what there is to know of how
-/// they fit is added.
-std::vector<Garment> draftGarments(const Case& c, const Human* human, std::vector<std::string>* fit = nullptr);
+/// are drafted lie over those before them. `human` is null where the case has none. `fits`: takes how each of them
+/// fits.
+std::vector<Garment> draftGarments(const Case& c, const Human* human, std::vector<GarmentFit>* fits = nullptr);
 /// Whether the human is dressed with the arms further from the sides than they hang: panels are sewn around trunk or
 /// arms, none of the garments is drafted for hanging arms, and there is time for them to come down again.
 bool armsAside(const Case& c);

@@ -68,6 +68,22 @@ Said said(double x, const std::string& unit, double (*round)(double)) {
 
 }  // namespace
 
+std::string largestOf(const GarmentCase& worn, const std::string& key,
+                      const std::function<bool(const GarmentCase&)>& holds) {
+  constexpr double kStep = 0.05, kLeast = 1.0 / 3;
+  const Dial dial(worn, key);
+  if (!dial) return "";
+  for (double share = 1 - kStep; share > kLeast; share -= kStep) {
+    const double x = 1e-3 * std::floor(1e3 * share * dial.value());
+    try {
+      if (holds(dial.at(x))) return fmt::format("{:g} mm", 1e3 * x);
+    } catch (const InputError&) {
+      return "";
+    }
+  }
+  return "";
+}
+
 void sayLargest(const InputError& e, const GarmentCase& worn, const std::string& wearer,
                 const std::function<void(const GarmentCase&)>& draft) {
   const Dial dial(worn, e.where().key);

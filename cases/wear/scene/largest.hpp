@@ -17,4 +17,10 @@ namespace gambeson {
 [[noreturn]] void sayLargest(const InputError& e, const GarmentCase& worn, const std::string& wearer,
                              const std::function<void(const GarmentCase&)>& draft);
 
+/// Of a length of a garment's table (its key in a case), the largest value below that of `worn` of which `holds` is
+/// true, to a twentieth, rounded down as people write it ("36 mm"); empty where it holds of none down to a third, or
+/// nothing can be drafted there.
+std::string largestOf(const GarmentCase& worn, const std::string& key,
+                      const std::function<bool(const GarmentCase&)>& holds);
+
 }  // namespace gambeson

@@ -70,13 +70,13 @@ struct Only {
 };
 
 /// What is drafted over other garments is drafted over them also where it is put on by itself: it is the same garment.
-/// `fit`: takes what is to be known of how they fit.
-Wardrobe makeGarments(const Case& c, const Only& only, const Human* human, std::vector<std::string>& fit) {
+/// `fits`: takes how each of them fits.
+Wardrobe makeGarments(const Case& c, const Only& only, const Human* human, std::vector<GarmentFit>& fits) {
   Wardrobe made;
   if (only.of)
     made.drafts = {std::move(draftGarments(withFactors(*only.of), human)[only.garment])};
   else
-    made.drafts = draftGarments(c, human, &fit);
+    made.drafts = draftGarments(c, human, &fits);
   made.meshes = readMeshes(c, made.drafts);
   return made;
 }
@@ -247,14 +247,17 @@ Assembled assemble(const Case& written, const Case& c, const Only& only, MadeBod
 std::unique_ptr<Scenario> buildUnnamed(const Case& written, const Only& only) {
   const Case c = withFactors(written);
   MadeBodies bodies = makeBodies(c);
-  std::vector<std::string> fit;
-  Wardrobe wardrobe = makeGarments(c, only, bodies.human ? &*bodies.human : nullptr, fit);
+  std::vector<GarmentFit> fits;
+  Wardrobe wardrobe = makeGarments(c, only, bodies.human ? &*bodies.human : nullptr, fits);
   auto [s, at_start] = assemble(written, c, only, std::move(bodies), std::move(wardrobe));
   // Unusual numbers come first, then what was assumed.
   const JsonNode node = schema::writeObject(schema::caseTable(), &written);
   for (const std::vector<std::string>& notes : {assumedThicknesses(node), unusualNumbers(schema::caseTable(), node)})
     s->notes.insert(s->notes.begin(), notes.begin(), notes.end());
-  s->notes.insert(s->notes.end(), fit.begin(), fit.end());
+  for (GarmentFit& fit : fits) {
+    s->notes.insert(s->notes.end(), fit.notes.begin(), fit.notes.end());
+    s->panel_girths.push_back(std::move(fit.girths));
+  }
   putOnAtStart(c, only, *s);
   if (isProjected(c)) shrinkBody(c, at_start, *s);
   return std::move(s);

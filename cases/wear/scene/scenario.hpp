@@ -15,6 +15,7 @@
 #include "human/body/body.hpp"
 #include "human/motion/foot_report.hpp"
 #include "human/motion/motion.hpp"
+#include "tryon/pattern/flat/panel_fit.hpp"
 
 namespace gambeson {
 
@@ -61,6 +62,9 @@ struct Scenario {
   /// What a user should know of the case before its results: what bears on these, and what was found in files of the
   /// wearer and of obstacles.
   std::vector<std::string> notes, facts;
+  /// How wide flat panels are around the wearer before they are sewn, by garment; none of a garment of another kind,
+  /// nor of a recording.
+  std::vector<std::vector<PanelGirth>> panel_girths;
   std::vector<Vec3> start_m;          ///< where the free points start; empty: where they are drafted
   std::vector<Vec3> shift_m;          ///< of the free points at the start, from the rest shapes; empty: none
   std::vector<double> start_history;  ///< what laws remember at the start; empty: nothing, they are new

@@ -61,6 +61,18 @@ TEST(Girth, OfATubeIsItsWidths) {
   EXPECT_TRUE(shortGirths(s, rest, worn, {0, 0, 1}, 0.11).empty());
 }
 
+/// A finger is not dressed: what is left of a seam that did not close has such rings, and "0.5 cm around and worn 0.5
+/// cm: 0.0 cm short" says nothing.
+TEST(Girth, WhatIsTooSmallToBeWornIsNoGirth) {
+  Surface s;
+  std::vector<Vec3> rest, worn;
+  around(tube(false), 0.66, s, rest, worn);
+  for (Vec3& p : rest) p = 0.1 * p;
+  for (Vec3& p : worn) p = 0.1 * p;
+  EXPECT_FALSE(girthsAt(s, rest, worn, {0, 0, 1}, 0.10731).empty());
+  EXPECT_TRUE(shortGirths(s, rest, worn, {0, 0, 1}, 0.05, 3, 0.001).empty());
+}
+
 TEST(Girth, WhatIsOpenIsNoGirth) {
   Surface s;
   std::vector<Vec3> rest, worn;

@@ -11,6 +11,7 @@
 #include "core/cloth/draft/mesh_draft.hpp"
 #include "human/motion/motion.hpp"
 #include "tryon/pattern/armour.hpp"
+#include "tryon/pattern/flat/panel_fit.hpp"
 #include "tryon/pattern/form.hpp"
 
 namespace gambeson {
@@ -27,6 +28,12 @@ inline constexpr const char* kCellDoc =
     "long";
 }  // namespace schema
 
+/// What a user should know of how a garment fits its wearer, before it is put on.
+struct GarmentFit {
+  std::vector<std::string> notes;
+  std::vector<PanelGirth> girths;  ///< of flat panels around the body; of others the cloth itself is measured
+};
+
 /// What a garment is made from.
 struct GarmentMaking {
   const GarmentCase& worn;
@@ -36,8 +43,7 @@ struct GarmentMaking {
   std::span<const Worn> under;     ///< the garments before it
   const Human* human = nullptr;    ///< null without a human, or where it has no surface
   Posture posture;                 ///< in which it is put on
-  /// Takes what a user should know of how it fits the body, before it is put on; null: nobody asks.
-  std::vector<std::string>* fit = nullptr;
+  GarmentFit* fit = nullptr;       ///< takes how it fits the body; null: nobody asks
 };
 
 /// What a garment asks of the arms of whoever is dressed: nothing, that they hang as it was drafted for, or that they

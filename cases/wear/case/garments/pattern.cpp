@@ -118,7 +118,7 @@ void sayDepths(const FlatPattern& pattern, const std::string& name, const Garmen
     const PanelDepth d = depthInBody(
         panel, [&](Vec2 x) { return m.worn.position_m + at.origin_m + x.x * at.along_x + x.y * at.along_y; }, body);
     if (d.depth_m > 0)
-      m.fit->push_back(
+      m.fit->notes.push_back(
           fmt::format("panel \"{}\" of the garment \"{}\" starts {:.1f} cm deep in the body ({}): it is placed for "
                       "another wearer; \"placing\": \"regions\" in its file places all by their regions",
                       panel.name, name, 100 * d.depth_m, d.segment));
@@ -152,8 +152,9 @@ Garment makePanels(const GarmentMaking& m) {
       layAsPlaced(pattern, m.worn.position_m, front, back);
       sayDepths(pattern, name, m, *body);
     }
-    if (const std::string text = shortText(panelGirths(pattern, front, back, *body), standsOf(m.fabric)); !text.empty())
-      m.fit->push_back(
+    m.fit->girths = panelGirths(pattern, front, back, *body);
+    if (const std::string text = shortText(m.fit->girths, standsOf(m.fabric)); !text.empty())
+      m.fit->notes.push_back(
           fmt::format("garment \"{}\" is narrower than its wearer before anything is sewn: {}", name, text));
     return garment;
   });

@@ -60,17 +60,19 @@ Object fileTable() {
 
 namespace {
 
-std::vector<std::string> notesOf(const MotionFileOptions& o, const MotionFileNotes& read) {
-  std::vector<std::string> notes;
+/// What was read is a fact; joints beyond their limits and feet that do not stand bear on the result.
+void tell(const MotionFileOptions& o, const MotionFileNotes& read, MadeMotion& made) {
   const std::string file = o.path.filename().string();
-  for (const std::string& line : read.lines) notes.push_back(fmt::format("motion {}: {}", file, line));
+  for (const std::string& line : read.lines) made.facts.push_back(fmt::format("motion {}: {}", file, line));
   if (read.beyond_limits_deg > 5)
-    notes.push_back(fmt::format("motion {}: {} goes {:.0f} degrees beyond its limits", file, read.beyond_joint,
-                                read.beyond_limits_deg));
-  notes.push_back(fmt::format(
-      "motion {}: feet at most {:.0f} mm below and {:.0f} mm above the ground, slip of carrying feet {:.2f} m/s RMS",
-      file, 1e3 * read.feet.deepest_m, 1e3 * read.feet.highest_m, read.feet.slip_m_per_s));
-  return notes;
+    made.notes.push_back(fmt::format("motion {}: {} goes {:.0f} degrees beyond its limits", file, read.beyond_joint,
+                                     read.beyond_limits_deg));
+  // As feet of our own motions are judged (bodies.cpp).
+  const bool stand = read.feet.deepest_m < 0.02 && read.feet.highest_m < 0.02;
+  (stand ? made.facts : made.notes)
+      .push_back(fmt::format("motion {}: feet at most {:.0f} mm below and {:.0f} mm above the ground, slip of carrying "
+                             "feet {:.2f} m/s RMS",
+                             file, 1e3 * read.feet.deepest_m, 1e3 * read.feet.highest_m, read.feet.slip_m_per_s));
 }
 
 }  // namespace
@@ -96,7 +98,7 @@ const MotionKind file_motion{
           const Vec3 way = m.at(m.duration()).root.origin - m.at(read.window_s).root.origin;
           made.mean_velocity_m_per_s = Vec3{way.x, way.y, 0} / (m.duration() - read.window_s);
           made.air_ramp_s = read.window_s;
-          made.notes = notesOf(o, read);
+          tell(o, read, made);
           return made;
         },
     .files =

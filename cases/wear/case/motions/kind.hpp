@@ -26,7 +26,8 @@ struct MadeMotion {
   std::unique_ptr<Motion> motion;
   Vec3 mean_velocity_m_per_s{};      ///< of the pelvis; 0 where it does not travel
   double air_ramp_s = 0;             ///< in which air that goes along comes up to speed
-  std::vector<std::string> notes{};  ///< what a user should know of it
+  std::vector<std::string> notes{};  ///< what a user should know of it: what bears on the result,
+  std::vector<std::string> facts{};  ///< and what was found in its file
   std::optional<Hurdle> hurdle{};    ///< what it steps over
 };
 

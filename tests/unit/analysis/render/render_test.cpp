@@ -254,6 +254,25 @@ TEST(Render, LegendArrowHasTheTrueLength) {
   EXPECT_NEAR(last + 1 - first, 0.2 * fitCamera(scene, scene.view, o.free).pixels_per_m, 4);
 }
 
+/// In pictures of 320 and 480 pixels this heading lay over legend and bar: it gives way there, and stands in a larger one.
+TEST(Render, TextsOfSmallPicturesDoNotLieOverEachOther) {
+  Scene scene = focused(0.5);
+  scene.title = "A shirt with long sleeves and a long name on a man who stands";
+  scene.subtitle = "Largest stretch of the fabric at 0.20 s, seen from the front left";
+  scene.bar = ColorBar{"Largest stretch of the fabric [%]; here up to 38", 0, 10};
+  scene.arrow_legend = "10 N";
+  scene.arrow_legend_length_m = 0.2;
+  Shot shot{scene.view};
+  shot.note = ColorNote{{1, 0, 1}, "inside the body by more than 0.2 mm"};
+  for (const auto& [w, h] : {std::pair(320, 240), std::pair(480, 360), std::pair(1280, 960)}) {
+    const Overlay o = layOut(scene, shot, loadFonts(w, h), w, h);
+    EXPECT_TRUE(o.wide);
+    EXPECT_LE(o.block_title.bottom, o.legend.top) << w;
+    EXPECT_LE(o.legend.bottom, o.bar.top) << w;
+    EXPECT_EQ(o.title.empty(), w < 1000) << w;
+  }
+}
+
 TEST(Render, TextsStandOnTheirPlaces) {
   Scene scene = focused(0.5);
   const Image bare = render(scene, 400, 400);

@@ -42,7 +42,6 @@ TEST(Card, RefusesWhatIsWrong) {
       {"    \"B\": \"0.172 gf cm^2/cm\",\n", "", 8, "bending.B", "is required"},
       {"\"B\":", "\"B_weft\":", 8, "bending.B_warp", "is required beside B_weft"},
       {"\"B\":", "\"rigidity\":", 9, "bending.rigidity", "unknown key"},
-      {"    \"2HB_at\": \"1 1/cm\",\n", "", 8, "bending.2HB_at", "is required with 2HB"},
       {"\"1 1/cm\"", "\"2.5 1/cm\"", 11, "bending.2HB_at", "< 2.5 1/cm"},
       {"\"0.6 1/cm\"", "\"2.6 1/cm\"", 12, "bending.K0", "<= 2.5 1/cm"},
       {"\"0.6 1/cm\"", "\"0 1/cm\"", 12, "bending.K0", "> 0"},

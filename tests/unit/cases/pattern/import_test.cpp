@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <sstream>
 
 #include "cases/pattern/import.hpp"
 #include "cases/pattern/pattern_file.hpp"
@@ -15,6 +16,7 @@
 #include "unit/cases/content.hpp"
 #include "unit/cases/example.hpp"
 #include "unit/cases/pattern/small_patterns.hpp"
+#include "unit/tryon/pattern/flat/region_patterns.hpp"
 
 namespace gambeson {
 namespace {
@@ -100,6 +102,22 @@ TEST(GarmentCode, SaysWhatIsWrongAndWhere) {
   choices.unit = "mm";
   EXPECT_NEAR(areaOf(importPattern(folder.write("g.json", kGarmentCode), choices).pattern.panels[0]),
               1e-2 * (0.06 - 0.5 * pi * 0.0025), 1e-16);
+}
+
+/// A sleeve that is drawn lying, as GarmentCode does, has its warp across the arm where no grain line says otherwise.
+TEST(Import, SaysWhereTheWarpIsAssumed) {
+  const auto report = [](const FlatPattern& pattern) {
+    const Folder folder;
+    std::ostringstream out;
+    importToFiles({folder.write("in.json", patternText(pattern)), folder.path() / "out.json", {}, {}}, out);
+    return out.str();
+  };
+  FlatPattern shirt = region_patterns::shirt({});
+  expectSaid(report(shirt), "the panels have no grain line: the warp is taken to run along y of the drawing. Where");
+  for (PanelEdge& e : shirt.panels[2].outline) e.start_m = {e.start_m.y, -e.start_m.x};
+  expectSaid(report(shirt), "along y of the drawing, which is across the arm in left sleeve. Where");
+  shirt.panels[2].grain = GrainLine{{0.1, 0}, {0.2, 0}};
+  expectSaid(report(shirt), "3 panels have no grain line: the warp is taken to run along y of the drawing. Where");
 }
 
 TEST(Dxf, IsReadByItsLayers) {

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
+#include "unit/cases/example.hpp"
+
 namespace gambeson {
 namespace {
 
@@ -30,6 +35,31 @@ TEST(Progress, QuietWhereThereIsNoTerminal) {
   }
   EXPECT_EQ(std::ftell(file), 0);
   std::fclose(file);
+}
+
+/// Whoever starts a run in the background reads how far it is in a file.
+TEST(Progress, StandsInAFileToo) {
+  const Folder folder;
+  const std::filesystem::path file = folder.path() / "progress.txt";
+  const auto line = [&] {
+    std::ifstream stream(file);
+    std::string text;
+    std::getline(stream, text);
+    return text;
+  };
+  std::FILE* quiet = std::tmpfile();
+  ASSERT_NE(quiet, nullptr);
+  {
+    Progress progress(4, 0, quiet, " s", file);
+    progress.update(1, "walk");
+    EXPECT_EQ(line(), "walk  25 %  1.00 of 4.00 s");
+    progress.update(2, "walk");
+    EXPECT_EQ(line(), "walk  25 %  1.00 of 4.00 s") << "written anew within two seconds";
+    progress.update(4, "walk");
+  }
+  EXPECT_EQ(line(), "walk  100 %  4.00 of 4.00 s");
+  EXPECT_EQ(std::ftell(quiet), 0);
+  std::fclose(quiet);
 }
 
 }  // namespace

@@ -284,6 +284,13 @@ TEST(Table, SuggestionsAreClose) {
   EXPECT_EQ(schema::closest("thickenss", words), "thickness");
   EXPECT_EQ(schema::closest("yuong", words), "young");
   EXPECT_EQ(schema::closest("colour", words), "");
+  const std::vector<std::string> fabric{"surface_density", "young", "young_weft", "poisson", "bending"};
+  EXPECT_EQ(schema::closest("weight", fabric), "surface_density");
+  EXPECT_EQ(schema::closest("young_modulus", fabric), "young");
+  EXPECT_EQ(schema::closest("youngs_modulus", fabric), "young");
+  EXPECT_EQ(schema::closest("young_weft_modulus", fabric), "young_weft");
+  EXPECT_EQ(schema::closest("poisson_ratio", fabric), "poisson");
+  EXPECT_EQ(schema::closest("weight", words), "") << "where there is no such key";
   EXPECT_EQ(schema::closest("x", words), "");
   EXPECT_EQ(schema::closest(std::string(1 << 16, 'x'), words), "");
 }

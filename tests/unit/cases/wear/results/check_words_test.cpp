@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "cases/input/message.hpp"
 #include "cases/wear/results/write.hpp"
 
@@ -41,6 +43,14 @@ TEST(CheckWords, SayWhatIsAllowed) {
             "contact points of the cloth lie up to 0.51 mm (allowed: 0.20 mm) inside the body");
   EXPECT_NE(checkWords("Repeatability, shape", 0.1, 0.05, "").wrong.find("allowed: at least 0.95"), std::string::npos);
   EXPECT_NE(checkWords("Contact solver", 1.04, 1, "%").wrong.find("1.04 % (allowed: 1.00 %)"), std::string::npos);
+  // A sign and a multiple in words, where "-490 % of the work is unaccounted for" says nothing.
+  EXPECT_EQ(checkWords("Energy", -490, 5, "%").wrong,
+            "the cloth lost energy that no work on it explains, 4.9 times the work of all forces together (allowed: "
+            "5.0 % either way)");
+  EXPECT_EQ(checkWords("Energy", 7.5, 5, "%").wrong,
+            "the cloth gained energy that no work on it explains, 7.5 % of the work of all forces (allowed: 5.0 % "
+            "either way)");
+  EXPECT_EQ(checkWords("Energy", NAN, 5, "%").wrong, "the energy of the cloth is no number");
   // Where nothing is allowed there is nothing to say.
   EXPECT_EQ(checkWords("Intersections", 3, 0, "").wrong, "cloth passes through cloth at 3 places at the end");
 }

@@ -231,12 +231,18 @@ TEST(Results, PicturesSideBySideTakeTheLargerScale) {
   const auto s = buildScenario(sleeve());
   record(*s, folder.path());
   const RecordingReader recording(folder.path());
-  PictureScale scale = scaleOf(*s, recording, 2, PictureField::stress);
+  const PictureCase close{.field = PictureField::stress, .around = PictureAround::garment};
+  PictureScale scale = scaleOf(*s, recording, 2, close);
   EXPECT_NEAR(scale.most_N, 1, 1e-12);  // one sample alone is pushed
   EXPECT_EQ(scale.high, 10);
   EXPECT_NEAR(scale.box_m.y, 0.12 + 2 * 0.06 * scale.size_m, 1e-3);
+  // The whole arm, of which the sleeve covers the middle.
+  const PictureScale whole = scaleOf(*s, recording, 2, {});
+  EXPECT_GT(whole.size_m, scale.size_m + 0.05);
+  for (const double c : {whole.box_m.x - scale.box_m.x, whole.box_m.y - scale.box_m.y, whole.box_m.z - scale.box_m.z})
+    EXPECT_GT(c, -1e-9);
   // A single spot does not stretch the colours of all the rest.
-  const PictureScale stressed = scaleOf(*s, recording, 4, PictureField::stress);
+  const PictureScale stressed = scaleOf(*s, recording, 4, close);
   EXPECT_EQ(stressed.high, 10);
   PictureScale other{1, 7, 0.1, {0, 9, 0}};
   other.include(stressed);
