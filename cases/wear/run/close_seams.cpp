@@ -20,8 +20,14 @@ namespace {
 /// Seams of panels are closed [sides of a cell].
 constexpr double closed_cells = 0.01;
 
-/// Of panels without weight; and what contacts may leave of it, as a part of g dt: some mm/s.
-constexpr double closing_m_per_s = 0.5, closing_tolerance = 2;
+/// Of panels without weight: the speed of the widest gap, and the part of a gap that closes in a second. From their
+/// quotient on, 50 mm, seams bind contacts (findOpenSeams). And what contacts may leave of it, as a part of g dt: some
+/// mm/s.
+constexpr double closing_m_per_s = 0.5, closing_per_s = 10, closing_tolerance = 2;
+
+/// Resistance to all motion while seams close: force over mass and velocity. Without weight, friction and resistance
+/// nothing takes what seams and contacts give: panels flutter at some m/s, and leave the wearer.
+constexpr double closing_drag_per_s = 20;
 
 bool areSame(const Posture& a, const Posture& b) {
   constexpr double little = 1e-9;
@@ -88,8 +94,6 @@ State closedAround(const Scenario& s, double closed_s, Frequency& frequency, Dre
   const TimeCase& time = s.definition.time;
   const std::unique_ptr<Integrator> integrator =
       makeIntegrator(time.motion, m, *s.stage, time.control(), frequency, work);
-  StepWork scratch;
-  const double stood_m = meanHeight(m, startOf(s, scratch));
   double widest = widestGap(m, state.p);
   while (widest > closed_cells && state.time_s < closed_s - 1e-9) {
     integrator->advance(std::min(closed_s, state.time_s + seams_look_s), state, nobody);
@@ -103,13 +107,7 @@ State closedAround(const Scenario& s, double closed_s, Frequency& frequency, Dre
                     "(\"placing\" in the pattern's file: given, regions) may close them{}{}",
                     closed_s - s.start_s, widest, closed_cells, gapesText(s, state),
                     fitText(s, state).empty() ? "" : ". It does not fit: ", fitText(s, state)));
-  if (const double rise = meanHeight(m, state) - stood_m; s.human && std::abs(rise) > most_rise_m)
-    throw RunError(
-        fmt::format("it has slipped off its wearer while its seams closed: it is {:.0f} cm {} than its panels stood "
-                    "(at most {:.0f}); "
-                    "finer cells, or the other way to place its panels (\"placing\" in the pattern's file: given, "
-                    "regions), may keep it on",
-                    100 * std::abs(rise), rise > 0 ? "higher" : "lower", 100 * most_rise_m));
+  requireWorn(s, state);
   if (const std::string fit = fitText(s, state); !fit.empty())
     sayNote(fmt::format("garment \"{}\" does not fit: {}", s.wardrobe.drafts[0].name, fit));
   return state;
@@ -123,13 +121,16 @@ std::unique_ptr<Scenario> standingPanels(const Case& one, const Case& whole, std
   standing.dressing.projecting.reset();
   const double close_s = std::get<PatternGarment>(one.garments[0].shape).close_within_s;
   standing.dressing.settle_s = close_s;
+  standing.air = {};
   standing.contact.friction = 0;
   standing.contact.tolerance = std::max(standing.contact.tolerance, closing_tolerance);
   standing.contact.friction_cloth.reset();
   standing.garments[0].friction.reset();
   for (ObstacleCase& obstacle : standing.obstacles) obstacle.friction.reset();
   std::unique_ptr<Scenario> s = buildAlone(standing, whole, garment);
-  s->model->sewing_options.close_m_per_s = closing_m_per_s;
+  Model& m = *s->model;
+  m.sewing_options = {closing_per_s, closing_m_per_s};
+  for (std::size_t i = 0; i < m.mass_kg.size(); ++i) m.drag_kg_per_s[i] = closing_drag_per_s * m.mass_kg[i];
   const double move_s = whole.dressing.settle_s;
   if (!s->human || !(move_s > 0)) return s;
   const Posture placed = puttingOnPosture(whole, one.garments[0], *s->human);
@@ -138,6 +139,19 @@ std::unique_ptr<Scenario> standingPanels(const Case& one, const Case& whole, std
   s->stage->settle_start_s = -move_s;
   s->start_s = s->stage->grow_start_s = -(close_s + move_s);
   return s;
+}
+
+void requireWorn(const Scenario& panels, const State& closed) {
+  if (!panels.human) return;
+  StepWork work;
+  const double rise_m = meanHeight(*panels.model, closed) - meanHeight(*panels.model, startOf(panels, work));
+  if (!(std::abs(rise_m) <= most_rise_m))
+    throw RunError(
+        fmt::format("it has slipped off its wearer while its seams closed: it is {:.0f} cm {} than its panels stood "
+                    "(at most {:.0f}); "
+                    "finer cells, or the other way to place its panels (\"placing\" in the pattern's file: given, "
+                    "regions), may keep it on",
+                    100 * std::abs(rise_m), rise_m > 0 ? "higher" : "lower", 100 * most_rise_m));
 }
 
 State sewnAround(const Scenario& s, DressingProgress& progress) {
