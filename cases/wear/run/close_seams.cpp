@@ -21,9 +21,9 @@ namespace {
 constexpr double closed_cells = 0.01;
 
 /// Of panels without weight: the speed of the widest gap, and the part of a gap that closes in a second. From their
-/// quotient on, 50 mm, seams bind contacts (findOpenSeams). And what contacts may leave of it, as a part of g dt: some
+/// quotient on, 33 mm, seams bind contacts (findOpenSeams). And what contacts may leave of it, as a part of g dt: some
 /// mm/s.
-constexpr double closing_m_per_s = 0.5, closing_per_s = 10, closing_tolerance = 2;
+constexpr double closing_m_per_s = 0.5, closing_per_s = 15, closing_tolerance = 2;
 
 /// Resistance to all motion while seams close: force over mass and velocity. Without weight, friction and resistance
 /// nothing takes what seams and contacts give: panels flutter at some m/s, and leave the wearer.
