@@ -98,4 +98,9 @@ void DressingProgress::write(const std::map<std::string, Values>& of_state) {
   if (kept) kept();
 }
 
+State stateAt(Donning donning, const Scenario& s, StepWork& work, Frequency& frequency, DressingProgress& progress) {
+  if (std::optional<State> kept = progress.take(donning, frequency)) return std::move(*kept);
+  return startOf(s, work);
+}
+
 }  // namespace gambeson

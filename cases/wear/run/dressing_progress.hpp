@@ -12,6 +12,7 @@
 
 #include "cases/runs/progress.hpp"
 #include "cases/wear/scene/dressed.hpp"
+#include "cases/wear/scene/scenario.hpp"
 #include "core/io/recording.hpp"
 #include "core/motion/step.hpp"
 
@@ -67,5 +68,9 @@ class DressingProgress {
   std::optional<Checkpoint> state_;  ///< that was read, until it is taken
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
+
+/// Where the garment in hand was stopped, or the start of the scenario.
+State stateAt(Donning donning, const Scenario& scenario, StepWork& work, Frequency& frequency,
+              DressingProgress& progress);
 
 }  // namespace gambeson

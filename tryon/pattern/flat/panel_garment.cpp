@@ -382,17 +382,12 @@ Garment panelGarment(const FlatPattern& pattern, const PanelCells& cells, std::v
     addNamedEdges(pattern, static_cast<int>(k), made, cells.cell_m, g);
   std::vector<SewnSeam> cuts;
   std::swap(cuts, g.sewn_seams);
-  // Sides that meet in a tip lie across the cells. More hats hold them nearer together; but where both do not look
-  // alike from the cells, they leave the cloth beside them no way to bend.
-  constexpr double kAlike = 2, kUnlike = 1;
+  // Sides that meet in a tip lie across the cells, and more hats leave the cloth beside them no way to bend; with fewer
+  // they gape by some percent of a cell where they lean on the grid (core/cloth/DECISIONS.md).
+  constexpr double kTipped = 2;
   std::vector<double> rows(pattern.seams.size(), SewnSeam{}.rows_per_cell);
-  for (std::size_t k = 0; k < tips.size(); ++k)
-    for (const PanelTip& t : tips[k]) {
-      const Grain& grain = made[k].grain;
-      const Vec2 way = grain.parameters(t.way);
-      const double off = std::min(std::abs(way.x), std::abs(way.y)) / std::max(std::abs(way.x), std::abs(way.y));
-      rows[t.seam] = std::min(rows[t.seam], off < 1e-3 ? kAlike : kUnlike);
-    }
+  for (const std::vector<PanelTip>& panel_tips : tips)
+    for (const PanelTip& t : panel_tips) rows[t.seam] = kTipped;
   const auto add = [&](const PanelSeam& seam, double rows_per_cell) {
     const std::string sides = sideText(pattern, seam.a) + " to " + sideText(pattern, seam.b);
     SewnSeam sewn{sewnEdge(pattern, seam.a, made), sewnEdge(pattern, seam.b, made)};

@@ -7,12 +7,14 @@
 #include <functional>
 #include <limits>
 
+#include "cases/pattern/pattern_file.hpp"
 #include "cases/wear/recording/recorder.hpp"
 #include "cases/wear/results/check_words.hpp"
 #include "cases/wear/results/stretch_checks.hpp"
 #include "cases/wear/results/write.hpp"
 #include "unit/cases/example.hpp"
 #include "unit/shell_of.hpp"
+#include "unit/tryon/pattern/flat/region_patterns.hpp"
 
 namespace gambeson {
 namespace {
@@ -197,6 +199,45 @@ TEST(Fit, AGarmentThatFallsFailsItsCheck) {
     const AuditCheck* check = checkOf(checks, "Slipping");
     ASSERT_TRUE(check);
     EXPECT_EQ(check->holds(), fallen_m == 0);
+  }
+}
+
+/// Two squares of 10 cm that start a metre apart. Then they lie side by side, but for a wedge between them: nothing at
+/// its tip, what is said at the other end of the seam. That has its last point 0.3 % before the end.
+TEST(Fit, ASeamThatGapesFailsItsCheck) {
+  using region_patterns::edge, region_patterns::panel;
+  const Folder folder;
+  FlatPattern pattern;
+  pattern.name = "two";
+  for (const double x_m : {0.0, 1.1}) {
+    pattern.panels.push_back(
+        panel(x_m > 0 ? "right" : "left", "", {edge(0, 0), edge(0.1, 0), edge(0.1, 0.1), edge(0, 0.1)}));
+    pattern.panels.back().placement = PanelPlace{{x_m, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  }
+  pattern.seams = {{"middle", {{0, 1, 0, 1}}, {{1, 3, 1, 0}}}};
+  checkPattern(pattern);
+  folder.write("pattern.json", patternText(pattern));
+  const std::string sheet = R"("sheet": {"width": "0.1 m", "height": "0.1 m", "cells_u": 3, "cells_v": 3})";
+  const auto s = buildScenario(
+      readCase(folder.write("cloth.json", with(with(with(cloth, "ANGLE", "0"), R"("limit_strain_weft": "WEFT %",)", ""),
+                                               sheet, R"("pattern": {"path": "pattern.json", "cell": "25 mm"})"))));
+  for (const double gap_m : {0.2e-3, 3e-3}) {
+    const std::filesystem::path dir = folder.path() / (gap_m > 1e-3 ? "gapes" : "holds");
+    record(*s, dir, {0, 0.02, 0.04}, [&](double t, const Vec3& p) {
+      if (p.x < 0.6 || t == 0) return p;
+      return p - Vec3{1 - (t > 0.03 ? gap_m : 0.5 * gap_m) * p.y / 0.1, 0, 0};
+    });
+    Measured m;
+    m.seam_gap = widestSeamGap(*s, RecordingReader(dir));
+    ASSERT_TRUE(m.seam_gap);
+    EXPECT_NEAR(m.seam_gap->gap_m, gap_m, 0.005 * gap_m);
+    EXPECT_NEAR(m.seam_gap->cells, gap_m / 0.025, 0.01 * gap_m / 0.025);
+    EXPECT_EQ(m.seam_gap->time_s, 0.04);
+    EXPECT_NEAR(norm(m.seam_gap->at_m - Vec3{0.1, 0.1, 0}), 0, 0.5e-3);
+    const auto checks = auditOf(m);
+    const AuditCheck* check = checkOf(checks, "Seams");
+    ASSERT_TRUE(check);
+    EXPECT_EQ(check->holds(), gap_m < 1e-3);
   }
 }
 

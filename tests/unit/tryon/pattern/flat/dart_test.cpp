@@ -332,6 +332,42 @@ TEST(PanelOpening, IsHeldByItsButtons) {
   }
 }
 
+/// Two darts of a back that lean on each other by 0.05 rad (3 degrees), as the waist darts of a torso do: the grid runs
+/// along the longer one, and the other lies across the cells.
+TEST(Dart, OneThatLeansOnTheGridCloses) {
+  FlatPattern p;
+  p.name = "two";
+  p.panels = {dartPolygon("back", {{0, 0},
+                                   {0.3, 0},
+                                   {0.3, 0.3},
+                                   {0.23, 0.3},  // 3: a dart of 11 cm that leans
+                                   {0.22 + 0.11 * std::sin(0.05), 0.3 - 0.11},
+                                   {0.21, 0.3},
+                                   {0.09, 0.3},  // 6: one of 12 cm along the grain
+                                   {0.08, 0.18},
+                                   {0.07, 0.3},
+                                   {0, 0.3}})};
+  p.seams = {{"short", {{0, 3, 0, 1}}, {{0, 4, 1, 0}}, SeamUse::dart},
+             {"long", {{0, 6, 0, 1}}, {{0, 7, 1, 0}}, SeamUse::dart}};
+  checkPattern(p);
+  Garment g = panelGarment(p, {0.04, 2});
+  g.fabric = sheetFabric();
+  ModelOptions o;
+  o.self_contact = false;
+  shapes::Motion m(g, {{0, 0, 0}, 3}, {}, o);
+  for (Vec3& x : m.state.p) x.z += 2e-3 * std::sin(20 * x.x) * std::sin(15 * x.y);
+  m.restart();
+  State s = m.state;
+  const double dt = 0.8 / largestFrequency(*m.model, m.stage, s, 80, m.work).largest_rad_per_s;
+  for (double t = 0; t < 0.5; t += dt) {
+    const StepReport r = m.step(dt);
+    ASSERT_EQ(r.failure, StepFailure::none) << r.why;
+  }
+  const double gap = widestGap(*m.model, m.state.p);
+  std::printf("widest gap %.3f %% of a cell\n", 100 * gap);
+  EXPECT_LT(gap, 0.01);
+}
+
 TEST(Dart, MakesAConeAlongTheGrain) { sewCone(kPi / 4, {0.0013, 0.0021}, 0, 0.2 / 24); }
 TEST(Dart, MakesAConeThatLeansOnTheGrain) { sewCone(kPi / 4, {0.0013, 0.0021}, 0.1, 0.2 / 24); }
 
