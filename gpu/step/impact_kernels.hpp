@@ -126,17 +126,22 @@ struct ConfirmImpacts {
     FourPoints x0, x1;
     queries.points(found.pair, x0, x1);
     const double start = certified::gapAtRest<N>(x0);
-    MetPair own = found;
     if (!(start > 0)) {
       fetchAdd(&count[kTouchingPairs], Count{1});
-      own.time = kNever;
-    } else if (const double separation = separationFrom(start); separation < queries.separation_m) {
-      const auto at = certified::findImpact<N>(x0, x1, separation, queries.tolerance_m);
-      own.time = at ? at->time : kNever;
-      if (at) own.u = at->u, own.v = at->v, own.capped = at->capped;
+      met[i].time = kNever;
+      return;
     }
-    if (own.time != kNever && own.capped != 0) fetchAdd(&count[kCappedPairs], Count{1});
-    met[i] = own;
+    bool capped = found.capped != 0;
+    if (const double separation = separationFrom(start); separation < queries.separation_m) {
+      const auto at = certified::findImpact<N>(x0, x1, separation, queries.tolerance_m);
+      if (!at) {
+        met[i].time = kNever;
+        return;
+      }
+      met[i].time = at->time, met[i].u = at->u, met[i].v = at->v;
+      capped = at->capped;
+    }
+    if (capped) fetchAdd(&count[kCappedPairs], Count{1});
   }
 };
 
