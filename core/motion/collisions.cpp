@@ -11,7 +11,7 @@
 #include "core/contact/mesh_topology.hpp"
 #include "core/math/parallel.hpp"
 #include "core/motion/body_edges.hpp"
-#include "core/motion/impact_row.hpp"
+#include "core/motion/impact_side.hpp"
 
 namespace gambeson {
 namespace {
@@ -61,18 +61,17 @@ Vec3 onBody(const CollisionModel& m, const CollisionWork& w, int vertex) {
 }
 
 /// The row that keeps a pair apart (impact_row.hpp).
-ContactRow rowOf(const CollisionModel& m, const CollisionWork& w, const PairHit& hit, const FourPoints& x0,
-                 const FourPoints& x1, const std::array<int, 4>& vertex, const ImpactTime& at, double dt) {
+ContactRow rowOf(const CollisionModel& m, const CollisionWork& w, const ImpactPair& pair, double dt) {
   const auto bodyOf = [&](int v, BodyVertex& out) {
     if (m.body_of_vertex[v] < 0) return false;
     const CollisionModel::Body& body = m.bodies[m.body_of_vertex[v]];
     out = {body.obstacle, v - body.first_vertex, body.deforms, onBody(m, w, v)};
     return true;
   };
-  const ImpactRow found = impactRow({hit.edges, hit.a, hit.b, vertex, x0, x1, at.time, at.u, at.v}, dt, bodyOf);
+  const ImpactRow found = impactRow(pair, dt, bodyOf);
   ContactRow row;
   row.impact = true;
-  row.pair = {hit.edges ? 1 : 0, hit.a, hit.b};
+  row.pair = {pair.edges ? 1 : 0, pair.a, pair.b};
   row.body_velocity = found.body_velocity;
   Contact& contact = row.contact;
   contact.normal = found.normal;
@@ -354,6 +353,7 @@ void findImpacts(const CollisionModel& m, double dt, std::span<const char> exemp
     box.add(path(m.mesh.edges[e][1]));
     return box;
   };
+  const ImpactSurfaces surfaces{viewOf(m.mesh), m.cloth.cloth_vertices, w.x0.data(), w.x1.data()};
   std::atomic<int> touching = 0, capped = 0;
   const auto ask = [&](PairHit hit, const std::array<int, 4>& vertex, std::vector<PairHit>& found) {
     bool cloth_inside = false, body = false;
@@ -383,8 +383,10 @@ void findImpacts(const CollisionModel& m, double dt, std::span<const char> exemp
     if (const double separation = separationFrom(start); separation < kSeparation_m) at = first(separation);
     if (!at) return;
     capped += at->capped;
+    const ImpactPair pair{hit.edges, hit.a, hit.b, vertex, x0, x1, at->time, at->u, at->v};
+    if (comesFromInside(pair, surfaces)) return;
     hit.time = at->time;
-    hit.row = rowOf(m, w, hit, x0, x1, vertex, *at, dt);
+    hit.row = rowOf(m, w, pair, dt);
     found.push_back(hit);
   };
   const std::span<const PointTriangle> points = w.list.pairs().points;

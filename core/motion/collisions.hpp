@@ -125,8 +125,8 @@ void freeTangles(const CollisionModel& model, std::vector<Contour> contours, dou
 void nearCloth(const CollisionModel& model, CollisionWork& work);
 
 /// All pairs that would come closer than the smaller of 1 um and a tenth of their distance at the start, on straight
-/// paths x0 -> x1 in time dt. `exempt`: vertices of cloth that are inside of a body are not stopped by its skin. Pairs
-/// with a vertex that is tangled are left to the restoring rows. Sorted by kind, then numbers.
+/// paths x0 -> x1 in time dt, but what comes from inside a body (impact_side.hpp). `exempt`: vertices inside of one are
+/// not stopped by its skin. Pairs with a tangled vertex are left to the restoring rows. Sorted by kind, then numbers.
 void findImpacts(const CollisionModel& model, double dt_s, std::span<const char> exempt, CollisionWork& work,
                  std::vector<PairHit>& hits);
 

@@ -52,19 +52,25 @@ struct ImpactRow {
   double touched_weight[3] = {};
 };
 
-/// The row that keeps a pair apart: weights at the hit, normal there, from side b to side a as they stood at the start.
-/// bodies(v, vertex) tells whether vertex v is a body's, and which.
-template <class Bodies>
-GAMBESON_HD ImpactRow impactRow(const ImpactPair& pair, double dt_s, const Bodies& bodies) {
+/// Where a pair meets: positions and weights there, the normal from side b to side a as they stood at the start, and
+/// the gap that they had along it.
+struct ImpactPlace {
+  std::array<double, 4> weight;
+  std::array<Vec3, 4> x;
+  Vec3 normal;
+  double gap_m = 0;
+};
+
+GAMBESON_HD inline ImpactPlace placeOf(const ImpactPair& pair) {
   const double u = pair.u, v = pair.v;
   const FourPoints &x0 = pair.x0, &x1 = pair.x1;
-  const std::array<double, 4> weight =
-      pair.edges ? std::array<double, 4>{1 - u, u, v - 1, -v} : std::array<double, 4>{1, u + v - 1, -u, -v};
-  std::array<Vec3, 4> x;
+  ImpactPlace at;
+  at.weight = pair.edges ? std::array<double, 4>{1 - u, u, v - 1, -v} : std::array<double, 4>{1, u + v - 1, -u, -v};
+  std::array<Vec3, 4>& x = at.x;
   Vec3 start{};
   for (int k = 0; k < 4; ++k) {
     x[k] = x0[k] + pair.time * (x1[k] - x0[k]);
-    start += weight[k] * x0[k];
+    start += at.weight[k] * x0[k];
   }
   Vec3 n = pair.edges ? cross(x[1] - x[0], x[3] - x[2]) : cross(x[2] - x[1], x[3] - x[1]);
   const double size = norm(n), length = norm(start);
@@ -72,9 +78,21 @@ GAMBESON_HD ImpactRow impactRow(const ImpactPair& pair, double dt_s, const Bodie
   const double scale = pair.edges ? norm(x[1] - x[0]) * norm(x[3] - x[2]) : norm(x[2] - x[1]) * norm(x[3] - x[1]);
   n = size > 1e-6 * scale ? n / size : length > 0 ? start / length : Vec3{0, 0, 1};
   if (dot(n, start) < 0) n = -n;
+  at.normal = n;
+  at.gap_m = dot(n, start);
+  return at;
+}
+
+/// The row that keeps a pair apart: weights at the hit, normal there, from side b to side a as they stood at the start.
+/// bodies(v, vertex) tells whether vertex v is a body's, and which.
+template <class Bodies>
+GAMBESON_HD ImpactRow impactRow(const ImpactPair& pair, double dt_s, const Bodies& bodies) {
+  const FourPoints &x0 = pair.x0, &x1 = pair.x1;
+  const ImpactPlace at = placeOf(pair);
+  const std::array<double, 4>& weight = at.weight;
   ImpactRow row;
-  row.normal = n;
-  row.gap_m = dot(n, start);
+  row.normal = at.normal;
+  row.gap_m = at.gap_m;
   row.kind = pair.edges ? ContactKind::edge_on_edge : ContactKind::sample_on_cloth;
   row.sample = pair.a;
   row.feature = pair.b;

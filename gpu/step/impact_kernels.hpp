@@ -2,7 +2,7 @@
 /// From the paths of a step to its hits: kernels around those of gpu/finding.
 
 #include "core/contact/ellipsoid_path.hpp"
-#include "core/motion/impact_row.hpp"
+#include "core/motion/impact_side.hpp"
 #include "gpu/finding/impact_search.hpp"
 #include "gpu/finding/narrow.hpp"
 #include "gpu/near/dressed_mesh.hpp"
@@ -112,31 +112,53 @@ struct StepHitList {
   }
 };
 
-/// Of the pairs that have met, those that come within their own separation, which depends on their distance at the
-/// start: hits.
+constexpr double kNever = 2;  ///< the time of a pair that does not come within its own separation
+
+/// Of the pairs that have met, when they come within their own separation, which depends on their distance at the
+/// start.
 template <int N>
 struct ConfirmImpacts {
   PairQueries<N> queries;
+  MetPair* met;
+  Count* count;
+
+  GAMBESON_HD void operator()(const MetPair& found, Count i) const {
+    FourPoints x0, x1;
+    queries.points(found.pair, x0, x1);
+    const double start = certified::gapAtRest<N>(x0);
+    if (!(start > 0)) {
+      fetchAdd(&count[kTouchingPairs], Count{1});
+      met[i].time = kNever;
+      return;
+    }
+    bool capped = found.capped != 0;
+    if (const double separation = separationFrom(start); separation < queries.separation_m) {
+      const auto at = certified::findImpact<N>(x0, x1, separation, queries.tolerance_m);
+      if (!at) {
+        met[i].time = kNever;
+        return;
+      }
+      met[i].time = at->time, met[i].u = at->u, met[i].v = at->v;
+      capped = at->capped;
+    }
+    if (capped) fetchAdd(&count[kCappedPairs], Count{1});
+  }
+};
+
+/// Of these, what does not come from inside a body: hits.
+template <int N>
+struct ListImpacts {
+  PairQueries<N> queries;
+  ImpactSurfaces surfaces;
   StepHitList out;
 
   GAMBESON_HD void operator()(const MetPair& met, Count) const {
-    FourPoints x0, x1;
-    queries.points(met.pair, x0, x1);
-    const double start = certified::gapAtRest<N>(x0);
-    if (!(start > 0)) {
-      fetchAdd(&out.count[kTouchingPairs], Count{1});
-      return;
-    }
-    StepHit hit{N == 3 ? kPointHit : kEdgeHit, met.pair.first, met.pair.second, met.time, met.u, met.v};
-    bool capped = met.capped != 0;
-    if (const double separation = separationFrom(start); separation < queries.separation_m) {
-      const auto at = certified::findImpact<N>(x0, x1, separation, queries.tolerance_m);
-      if (!at) return;
-      hit.time = at->time, hit.u = at->u, hit.v = at->v;
-      capped = at->capped;
-    }
-    if (capped) fetchAdd(&out.count[kCappedPairs], Count{1});
-    out.add(hit);
+    if (met.time == kNever) return;
+    ImpactPair pair{N == 4, met.pair.first, met.pair.second, {}, {}, {}, met.time, met.u, met.v};
+    queries.points(met.pair, pair.x0, pair.x1);
+    for (int k = 0; k < 4; ++k) pair.vertex[k] = queries.vertex(met.pair, k);
+    if (!comesFromInside(pair, surfaces))
+      out.add({N == 3 ? kPointHit : kEdgeHit, met.pair.first, met.pair.second, met.time, met.u, met.v});
   }
 };
 

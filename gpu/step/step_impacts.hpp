@@ -36,7 +36,10 @@ class StepImpacts {
         mesh_(meshOf(model.collisions), start),
         points_of_cloth_(uploaded<Device>(queue, inTriangles(model.collisions, start, true))),
         points_of_bodies_(uploaded<Device>(queue, inTriangles(model.collisions, start, false))),
+        triangle_(uploaded<Device>(queue, model.collisions.mesh.triangles)),
         edge_(uploaded<Device>(queue, model.collisions.mesh.edges)),
+        edge_faces_(queue, model.collisions.mesh.edge_faces),
+        vertex_edges_(queue, model.collisions.mesh.vertex_edges),
         body_edges_(uploaded<Device>(queue, edgesOfBodies(model.collisions, start))),
         thickness_(uploaded<Device>(queue, model.layer_m)),
         body_of_vertex_(uploaded<Device>(queue, model.collisions.body_of_vertex)),
@@ -294,13 +297,22 @@ class StepImpacts {
                                                               count_.data() + kPointsTaken + kKind, metList(kKind)});
                   }});
     to.push_back({"hits of " + of, [this, queries](Queue& q) {
-                    q.forItems(metList(kKind).met, ConfirmImpacts<N>{queries, hitList()});
+                    const List<MetPair> met = metList(kKind).met;
+                    q.forItems(met, ConfirmImpacts<N>{queries, met.items, count_.data()});
+                    q.forItems(met, ListImpacts<N>{queries, surfaces(), hitList()});
                   }});
   }
   MetList metList(int kind) {
     MetList to;
     to.met = list(met_[kind], kind == 0 ? kPointMet : kEdgeMet);
     return to;
+  }
+  ImpactSurfaces surfaces() const {
+    ContactMeshView mesh;
+    mesh.triangles = triangle_.data();
+    mesh.edge_faces = edge_faces_.view();
+    mesh.vertex_edges = vertex_edges_.view();
+    return {mesh, samples_, paths_.x0, paths_.x1};
   }
   StepHitList hitList() { return {list(hits_, kStepHits), count_.data()}; }
 
@@ -320,7 +332,9 @@ class StepImpacts {
   int samples_, bodies_, ellipsoids_ = 0;
   FlatMesh<Device> mesh_;
   Buffer<int> points_of_cloth_, points_of_bodies_;
+  Buffer<std::array<int, 3>> triangle_;
   Buffer<std::array<int, 2>> edge_;
+  FlatLists<Device> edge_faces_, vertex_edges_;
   Buffer<int> body_edges_;
   Buffer<double> thickness_;
   Buffer<int> body_of_vertex_, ellipsoid_of_;
