@@ -82,11 +82,13 @@ TEST(PlacedPanels, WhatIsTooNarrowIsSaidBeforeTheRun) {
   narrow.quarter_waist = narrow.quarter_hem = 0.2;
   const Case c = readCase(written(folder, skirt(narrow)));
   const auto s = buildScenario(c);
-  std::vector<std::string> fit;
-  draftGarments(c, &*s->human, &fit);
-  ASSERT_EQ(fit.size(), 1u);
-  EXPECT_NE(fit[0].find("at the hip"), std::string::npos) << fit[0];
-  EXPECT_NE(fit[0].find(" cm short"), std::string::npos) << fit[0];
+  std::vector<GarmentFit> fits;
+  draftGarments(c, &*s->human, &fits);
+  ASSERT_EQ(fits.size(), 1u);
+  ASSERT_EQ(fits[0].notes.size(), 1u);
+  const std::string& note = fits[0].notes[0];
+  EXPECT_NE(note.find("at the hip"), std::string::npos) << note;
+  EXPECT_NE(note.find(" cm short"), std::string::npos) << note;
 }
 
 TEST(PlacedPanels, WithoutPlaceTheCaseIsRefused) {
