@@ -133,13 +133,14 @@ def cameras(results, folder):
     follow = render(results, folder / "follow.gif", *options, "--follow")
     goes = [middle(film, len(film.frames) - 1) - middle(film, 0) for film in (still, follow)]
     check(abs(goes[0]) > 3 * abs(goes[1]) + 3, f"the wearer goes {goes[0]} pixels, followed {goes[1]}")
-    named = render(results, folder / "named.gif", *options[:6], "--view", "left", "--field", "plain")
-    free = render(results, folder / "free.gif", *options[:6], "--azimuth", "90", "--elevation", "0", "--field", "plain")
+    # Pictures, since palettes of films differ by what stands in the heading.
+    named = render(results, folder / "named.png", "--time", "0.2", "--view", "left", "--field", "plain")
+    free = render(results, folder / "free.png", "--time", "0.2", "--azimuth", "90", "--elevation", "0", "--field", "plain")
     right = named.width * 4 // 10
     for y in range(0, named.height, 5):
         a, b = 3 * (y * named.width + right), 3 * (y + 1) * named.width
         off = far(named.frames[0][a:b], free.frames[0][a:b])
-        check(off <= 8, f"--azimuth 90 is not the view from the left ({off} in row {y})")
+        check(off <= 1, f"--azimuth 90 is not the view from the left ({off} in row {y})")
     near = render(results, folder / "near.gif", *options, "--zoom", "2")
     lengths = [arrow_of(film, 0) for film in (still, near)]
     check(abs(lengths[1] - 2 * lengths[0]) <= 3, f"the legend's arrow is {lengths[0]} pixels long, at --zoom 2 {lengths[1]}")
