@@ -22,10 +22,10 @@
 #include "cases/structure/run.hpp"
 #include "cases/study/study.hpp"
 #include "cases/verify/verify.hpp"
+#include "cases/wear/results/film.hpp"
 #include "cases/wear/results/results.hpp"
 #include "cases/wear/scene/dressed.hpp"
 #include "core/error.hpp"
-#include "core/io/recording.hpp"
 #include "human/body/urdf.hpp"
 #include "human/files/mesh.hpp"
 #include "human/recorded/bvh.hpp"
@@ -141,11 +141,7 @@ std::string checkResults(const Path& dir) {
     readRecordedStructureCase(file);
     return "results of a structure";
   }
-  const RecordedRun run = recordedRun(dir);
-  const RecordingReader& frames = run.recording;
-  if (frames.frameCount() == 0) return "results of worn cloth without a frame";
-  return fmt::format("results of worn cloth, {} frames from {:.4g} to {:.4g} s", frames.frameCount(), frames.time(0),
-                     frames.time(frames.frameCount() - 1));
+  return "results of worn cloth, " + framesText(recordedRun(dir).recording);
 }
 
 /// JSON under any name; what is none and is not called so may be meant for another program.

@@ -21,11 +21,6 @@ namespace {
   throw InputError({"command line", 0, option}, why);
 }
 
-/// "36 frames from -0.5 to 0.2 s".
-std::string framesText(const RecordingReader& r) {
-  return fmt::format("{} frames from {:.4g} to {:.4g} s", r.frameCount(), r.time(0), r.time(r.frameCount() - 1));
-}
-
 /// The times that a film shows.
 struct FilmTimes {
   double fps = 25, from_s = 0;
@@ -290,6 +285,13 @@ int renderBodyPressure(const FilmRequest& o) {
 }
 
 }  // namespace
+
+std::string framesText(const RecordingReader& recording) {
+  const int count = recording.frameCount();
+  if (count == 0) return "no frame";
+  if (count == 1) return fmt::format("1 frame at {:.4g} s", recording.time(0));
+  return fmt::format("{} frames from {:.4g} to {:.4g} s", count, recording.time(0), recording.time(count - 1));
+}
 
 namespace schema {
 

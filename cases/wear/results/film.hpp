@@ -5,10 +5,12 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cases/input/schema.hpp"
 #include "cases/runs/picture.hpp"
+#include "core/io/recording.hpp"
 
 namespace gambeson {
 
@@ -30,6 +32,9 @@ namespace schema {
 Object filmTable();  ///< the numbers of a FilmRequest
 
 }  // namespace schema
+
+/// "36 frames from -0.5 to 0.2 s".
+std::string framesText(const RecordingReader& recording);
 
 /// Draws and writes it. Each frame of a film shows the recorded frame that is nearest to its time, none in between.
 /// Colours, the scale of arrows, the camera and the size of what is shown are the same in all frames and for all runs;

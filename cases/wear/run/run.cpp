@@ -207,10 +207,10 @@ int runCase(const Case& c, const RunOptions& options) {
     fmt::print(notes(), "{} holds no checkpoint to resume from: starting at the beginning\n", options.out.string());
   // The case is written once there is a recording and before its first segment: a recording with a segment has its
   // case, whenever the run is killed.
-  claimFile(options.out / kProgressFile);
   if (!resume) removeEarlierResults(options.out);
   RecordingWriter writer =
       resume ? RecordingWriter::resume(options.out, layout, checkpoint) : RecordingWriter::create(options.out, layout);
+  claimFile(options.out / kProgressFile);
   if (resume)
     requireRecordedCase(options.out, readLayout(options.out));
   else

@@ -50,7 +50,7 @@ std::vector<Scene> hardScenes() {
   return scenes;
 }
 
-const BothSizes kAmple{ListSizes{1 << 15, 1 << 13, 1 << 13, 1 << 13}, ListSizes{1 << 17, 1 << 15, 1 << 14, 1 << 14}};
+const BothSizes kAmple{ListSizes{1 << 17, 1 << 15, 1 << 15, 1 << 15}, ListSizes{1 << 19, 1 << 17, 1 << 16, 1 << 16}};
 
 template <class Device>
 std::unique_ptr<ImpactSearch> searched(const Scene& scene, Broad broad, Bounds bounds = Bounds::boxes,
