@@ -192,7 +192,7 @@ TEST(Study, ThePageSaysHowItsNumbersAreMeant) {
         "(walking from 0.20 s on; stairs from 0.20 s on)", "the shaded start before it is shown but not judged",
         "natural 100 Nm<br>foot bears 63 %,<br>28 cm off the joint", "<br>against the motion</small>",
         ", against the motion</text>", "hinders while the joint flexes",
-        "The case does not state how far its fabric may stretch"})
+        "Nobody states how far this fabric may be stretched"})
     EXPECT_NE(page.find(text), std::string::npos) << text;
   EXPECT_EQ(page.find("with the motion</"), std::string::npos);
   for (RunNumbers& r : runs) r.joints[0].rate_at_peak *= -1;

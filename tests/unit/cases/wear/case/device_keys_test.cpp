@@ -101,7 +101,7 @@ const Keys carried{
     {"Projecting", "clearance grow"},
     {"Time", "duration step_safety max_step step"},
     {"Output", "window frame checkpoint pictures viewer"},
-    {"Picture", "time field view width height"},
+    {"Picture", "time field view around width height"},
     {"Analysis", "joints counting task"},
     {"Comfort", "shoulder chest waist hips thigh arm other wear sensor effort_amber effort_red"},
     {"Comfort limit", "amber red peak"},

@@ -61,7 +61,7 @@ TEST(WearerCase, AScanWearsShortsAsLargeAsTheBodysThatItIsOf) {
   };
   EXPECT_TRUE(says("scan man.obj: taken to be in millimetres"));
   EXPECT_TRUE(says("scan man.obj: A-pose"));
-  EXPECT_TRUE(says("scan man.obj: hip "));
+  EXPECT_TRUE(says("scan man.obj: girths in cm as scanned, and standing: hip "));
   Case own = c;
   own.human->scan.reset();
   own.human->manikin = "male_p50";
