@@ -58,6 +58,7 @@ std::unique_ptr<const Cloth> trianglesOf(std::span<const ClothSource> sources) {
   std::vector<MeshDraft> garments;
   for (const ClothSource& s : sources) {
     garments.push_back(underKey(s.key, [&] { return s.mesh ? *s.mesh : meshDraft(s.draft, s.model.mesh); }));
+    garments.back().closed = s.closed;
     garments.back().membrane = s.model.membrane;
     garments.back().bending = s.model.bending;
     garments.back().bending_spring_N_per_m = s.model.bending_spring_N_per_m;

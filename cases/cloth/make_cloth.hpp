@@ -18,6 +18,7 @@ struct ClothSource {
   ClothModel model;
   const MeshDraft* mesh = nullptr;  ///< where it was read from a mesh, in place of the draft
   std::string key;                  ///< what is wrong with it is said of this key
+  bool closed = true;               ///< seams of panels of triangles are closed, or rows close them
 };
 
 /// All garments as one cloth, the first innermost: neighbours of one kind together, kinds joined. Throws

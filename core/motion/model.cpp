@@ -7,6 +7,7 @@
 
 #include "core/contact/halving.hpp"
 #include "core/error.hpp"
+#include "core/motion/sewing.hpp"
 #include "core/motion/step_method.hpp"
 
 namespace gambeson {
@@ -212,6 +213,15 @@ std::unique_ptr<Model> buildModel(std::shared_ptr<const Cloth> cloth, const Mode
   m.method = bodyMethod(m.contact);
   if (m.method) checkMethod(m);
   return model;
+}
+
+void evenMasses(Model& m) {
+  const double mean = std::accumulate(m.mass_kg.begin(), m.mass_kg.end(), 0.0) / static_cast<double>(m.mass_kg.size());
+  for (std::size_t i = 0; i < m.mass_kg.size(); ++i) {
+    m.mass_kg[i] = mean;
+    if (m.inverse_mass[i] > 0) m.inverse_mass[i] = 1 / mean;
+  }
+  if (!m.sewing.empty()) projectSeams(m.cloth->sewnRows(), m);
 }
 
 void holdOnly(std::span<const int> control_points, Model& m) {

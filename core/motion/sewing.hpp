@@ -45,6 +45,10 @@ double sewingWork(const Model& model, double dt_s, std::span<const Vec3> foresee
 /// The largest gap between the hats of any seam, in sides of its cell, with the free points at p (SewnRows::pairs).
 double widestGap(const Model& model, std::span<const Vec3> p);
 
+/// Gives all free points the mean of their masses. While seams close both points of a pair go to meet in the ratio of
+/// their inverse masses, and neighbours whose ratios differ would be torn apart. Of a model that is moved for that alone.
+void evenMasses(Model& model);
+
 /// The seams in the place of M^-1 for contacts.
 class SewnHold : public ProjectingHold {
  public:

@@ -130,6 +130,8 @@ std::unique_ptr<Scenario> standingPanels(const Case& one, const Case& whole, std
   std::unique_ptr<Scenario> s = buildAlone(standing, whole, garment);
   Model& m = *s->model;
   m.sewing_options = {closing_per_s, closing_m_per_s};
+  // Points of trimmed patches are no places of the cloth: where all weigh the same, those that bear little lag.
+  if (one.garments[0].cloth.kind == ClothKind::triangles) evenMasses(m);
   for (std::size_t i = 0; i < m.mass_kg.size(); ++i) m.drag_kg_per_s[i] = closing_drag_per_s * m.mass_kg[i];
   const double move_s = whole.dressing.settle_s;
   if (!s->human || !(move_s > 0)) return s;

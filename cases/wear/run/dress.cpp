@@ -152,7 +152,7 @@ void putOn(Scenario& s, DressingProgress& progress) {
   }
   if (c.human || !kindOf(c.garments[0]).sewn) return;
   const std::unique_ptr<Scenario> panels = standingPanels(alone(c, 0), c, 0);
-  s.start_m = sewnAround(*panels, progress).p;
+  s.start_m = sew(s.model->cloth->map(), controlPoints(*panels, sewnAround(*panels, progress)));
 }
 
 namespace {

@@ -35,7 +35,7 @@ void addMeshNoise(const Case& c, const Wardrobe& wardrobe, ClothDraft& out) {
 
 }  // namespace
 
-ClothDraft clothOf(const Case& c, const FactorsCase& written, const Wardrobe& wardrobe, bool panels) {
+ClothDraft clothOf(const Case& c, const FactorsCase& written, const Wardrobe& wardrobe, bool panels, bool closing) {
   ClothDraft out;
   std::vector<Garment> drafts = wardrobe.drafts;
   std::vector<Vec3> start = startDisplacements(c, drafts);
@@ -51,7 +51,8 @@ ClothDraft clothOf(const Case& c, const FactorsCase& written, const Wardrobe& wa
   std::vector<ClothSource> sources;
   for (std::size_t k = 0; k < drafts.size(); ++k) {
     const auto& mesh = wardrobe.meshes[k];
-    sources.push_back({drafts[k], c.garments[k].cloth, mesh ? &*mesh : nullptr, fmt::format("garments[{}]", k)});
+    sources.push_back(
+        {drafts[k], c.garments[k].cloth, mesh ? &*mesh : nullptr, fmt::format("garments[{}]", k), !closing});
   }
   out.cloth = makeCloth(sources);
   out.start_m = out.cloth->fromDraft(start);

@@ -22,7 +22,8 @@ struct ClothDraft {
 };
 
 /// `c`: with its factors; `written`: its factors as they stand, for the springs of seams. `panels`: the one garment
-/// without its seams, springs in their place, its panels moved off the body. Throws InputError with the garment's key.
-ClothDraft clothOf(const Case& c, const FactorsCase& written, const Wardrobe& wardrobe, bool panels);
+/// without its seams, springs in their place, its panels moved off the body. `closing`: the seams of flat panels are
+/// still to be closed. Throws InputError with the garment's key.
+ClothDraft clothOf(const Case& c, const FactorsCase& written, const Wardrobe& wardrobe, bool panels, bool closing);
 
 }  // namespace gambeson

@@ -67,6 +67,7 @@ struct Only {
   const Case* of = nullptr;
   std::size_t garment = 0;
   bool panels = false;
+  bool closing = false;  ///< its seams are still to be closed
 };
 
 /// What is drafted over other garments is drafted over them also where it is put on by itself: it is the same garment.
@@ -233,7 +234,8 @@ Assembled assemble(const Case& written, const Case& c, const Only& only, MadeBod
   std::vector<Obstacle> obstacles = placeBodies(c, std::move(bodies), *s, *s->stage);
   const std::vector<Garment>& garments = s->wardrobe.drafts;
   const std::vector<int> first = nameParts(c, garments, *s);
-  ClothDraft draft = underGarments(c, only, [&] { return clothOf(c, written.factors, s->wardrobe, only.panels); });
+  ClothDraft draft =
+      underGarments(c, only, [&] { return clothOf(c, written.factors, s->wardrobe, only.panels, only.closing); });
   const std::vector<Vec3> start = std::move(draft.start_m), placed = std::move(draft.placed_m);
   buildModelOf(c, only, std::move(draft), first, std::move(obstacles), *s);
   noteCoarseness(c, garments, first, *s);
@@ -308,7 +310,7 @@ std::unique_ptr<Scenario> buildRecorded(const Case& c, MadeBodies bodies, Wardro
 }
 
 std::unique_ptr<Scenario> buildAlone(const Case& one, const Case& whole, std::size_t garment) {
-  return build(one, {&whole, garment});
+  return build(one, {&whole, garment, false, kindOf(one.garments[0]).sewn});
 }
 
 std::unique_ptr<Scenario> buildPanels(const Case& one, const Case& whole, std::size_t garment) {

@@ -17,13 +17,22 @@ namespace gambeson {
 /// says, edges straight.
 enum class MeshRest { fabric, shape, flat };
 
+/// Two vertices of two panels, or of one, that a seam holds at one place (core/cloth/sewn_rows.hpp).
+struct MeshTie {
+  std::array<int, 2> vertex{}, patch{};
+  int seam = 0;          ///< of the draft's sewn seams
+  double length_m = 0;   ///< of seam that it stands for
+  double spacing_m = 0;  ///< to the next along the seam
+  double cell_m = 0;     ///< of the smaller of both meshes
+};
+
 struct MeshDraft {
   ClothMesh mesh;
   MeshRest rest = MeshRest::fabric;
   BendingElements bending = BendingElements::hinge;
   double bending_spring_N_per_m = 0;  ///< of BendingElements::springs; 0: from the fabric's rigidities
-  std::vector<Fabric> fabrics;  ///< one or more
-  std::vector<int> fabric;      ///< of each triangle; empty: the first
+  std::vector<Fabric> fabrics;        ///< one or more
+  std::vector<int> fabric;            ///< of each triangle; empty: the first
   /// Of a draft: the parameters at each triangle's corners, their range in each patch, and the vertices as rows on the
   /// draft's control points. Empty for a file.
   std::vector<std::array<Vec2, 3>> draft;
@@ -32,6 +41,9 @@ struct MeshDraft {
   std::vector<std::array<std::vector<double>, 2>> lines;
   SparseRows of_control;
   MembraneModel membrane;
+  std::vector<MeshTie> ties;
+  bool closed = false;  ///< tied vertices are one point that moves; else rows hold them, which may still be open
+  int sewn_seams = 0;  ///< of the draft
 };
 
 }  // namespace gambeson

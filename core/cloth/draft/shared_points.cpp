@@ -7,7 +7,6 @@
 #include <set>
 
 namespace gambeson {
-namespace {
 
 bool isCut(const SewnSeam& s) {
   if (s.hold == SeamHold::open || s.a.size() != 1 || s.b.size() != 1) return false;
@@ -17,6 +16,8 @@ bool isCut(const SewnSeam& s) {
          a.curve.weights == b.curve.weights &&
          std::equal(a.curve.points.begin(), a.curve.points.end(), b.curve.points.begin(), b.curve.points.end(), same);
 }
+
+namespace {
 
 using Lines = std::vector<std::array<Vec2, 2>>;
 

@@ -14,6 +14,9 @@
 
 namespace gambeson {
 
+/// Whether a seam is a cut in a sheet: sewn, its two sides one curve of two patches.
+bool isCut(const SewnSeam& seam);
+
 /// Of each control point of a garment (in the list of all) the lowest one that it is one with, or itself.
 std::vector<int> sharedOwners(const Garment& garment);
 

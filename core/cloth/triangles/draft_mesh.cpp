@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "core/cloth/draft/cells.hpp"
 #include "core/cloth/draft/seams.hpp"
+#include "core/cloth/triangles/sewn_mesh.hpp"
 #include "core/error.hpp"
 #include "core/nurbs/trim_mesh.hpp"
 
@@ -137,6 +139,12 @@ PatchMesh meshOf(const Garment& g, int index, MeshKind kind, double rows_per_cel
   return m;
 }
 
+PatchMesh panelMesh(const Garment& g, int index, const SewnMesh::Patch& mesh) {
+  PatchMesh m{mesh.uv, mesh.triangles, {}, {}};
+  if (!isTrimmed(g, index)) findSides(g.patches[static_cast<std::size_t>(index)], m);
+  return m;
+}
+
 /// Points of all patches one after the other, those that seams join as one: parent of each.
 class Welding {
  public:
@@ -179,9 +187,12 @@ void joinSides(const std::vector<int>& a, const std::vector<int>& b, const std::
 MeshDraft meshDraft(const Garment& g, MeshKind kind) {
   if (!g.weak_seams.empty())
     reject("triangles need seams whose edges have equal cells; weak seams go with NURBS cloth");
-  if (!g.sewn_seams.empty())
-    throw InputError({"", 0, "model"},
-                     "cloth of triangles is not sewn of flat panels; allowed with sewn seams: \"nurbs\"");
+  std::optional<SewnMesh> sewn;
+  if (!g.sewn_seams.empty()) {
+    if (kind != MeshKind::single)
+      reject("alternating and equilateral are for drafts without sewn seams; allowed here: single");
+    sewn = sewnMesh(g);
+  }
   validateFields(g);
   MeshDraft out;
   ClothMesh& mesh = out.mesh;
@@ -190,7 +201,8 @@ MeshDraft meshDraft(const Garment& g, MeshKind kind) {
   std::vector<int> first{0};
   std::vector<Vec3> X;
   for (int p = 0; p < static_cast<int>(g.patches.size()); ++p) {
-    patches.push_back(meshOf(g, p, kind, rows_per_cell));
+    patches.push_back(sewn ? panelMesh(g, p, sewn->patches[static_cast<std::size_t>(p)])
+                           : meshOf(g, p, kind, rows_per_cell));
     for (const Vec2& uv : patches.back().uv)
       X.push_back(surfaceDerivatives(g.patches[static_cast<std::size_t>(p)], uv.x, uv.y)[0]);
     first.push_back(static_cast<int>(X.size()));
@@ -204,6 +216,9 @@ MeshDraft meshDraft(const Garment& g, MeshKind kind) {
   Welding welding(X.size());
   for (std::size_t k = 0; k < g.seams.size(); ++k)
     joinSides(side(g.seams[k].a), side(g.seams[k].b), X, "seam " + std::to_string(k), g.seams[k].onPart(), welding);
+  const auto pointOf = [&](const MeshVertex& v) { return first[static_cast<std::size_t>(v.patch)] + v.vertex; };
+  if (sewn)
+    for (const auto& [a, b] : sewn->cuts) welding.join(pointOf(a), pointOf(b));
 
   std::vector<int> vertex(X.size(), -1);
   const std::vector<int> offsets = controlOffsets(g);
@@ -269,6 +284,15 @@ MeshDraft meshDraft(const Garment& g, MeshKind kind) {
       MeshLine line{edge.name, e.patch, side(e)};
       for (int& i : line.vertices) i = vertexOf(i);
       mesh.lines.push_back(std::move(line));
+    }
+  out.sewn_seams = static_cast<int>(g.sewn_seams.size());
+  if (sewn)
+    for (const SewnPair& pair : sewn->pairs) {
+      const std::array<int, 2> ends{vertexOf(pointOf(pair.a)), vertexOf(pointOf(pair.b))};
+      if (ends[0] == ends[1]) continue;  // at the tip of a dart that is cut on
+      const double cell = std::min(sewn->patches[static_cast<std::size_t>(pair.a.patch)].cell_m,
+                                   sewn->patches[static_cast<std::size_t>(pair.b.patch)].cell_m);
+      out.ties.push_back({ends, {pair.a.patch, pair.b.patch}, pair.seam, pair.length_m, pair.spacing_m, cell});
     }
   return out;
 }

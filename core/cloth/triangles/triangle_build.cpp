@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "core/cloth/triangles/hinge_angle.hpp"
@@ -80,27 +81,56 @@ struct EdgeOf {
 /// Adds one garment.
 class Builder {
  public:
-  Builder(const MeshDraft& garment, int number, TriangleParts& parts)
+  Builder(const MeshDraft& garment, int number, int first_seam, int first_vertex, TriangleParts& parts)
       : g_(garment),
         mesh_(garment.mesh),
         out_(parts),
         first_patch_(static_cast<int>(parts.patches.size())),
         first_triangle_(parts.triangles.size()),
-        first_fabric_(static_cast<int>(parts.fabrics.size())) {
+        first_fabric_(static_cast<int>(parts.fabrics.size())),
+        first_vertex_(first_vertex) {
     checkMesh(mesh_);
     if (g_.fabrics.empty()) throw InputError({"", 0, "fabric"}, "a garment of triangles needs a fabric");
     if (g_.rest == MeshRest::flat && mesh_.uv.empty())
       throw InputError({"", 0, "rest"}, "needs uv coordinates to lie flat by; the mesh has none");
     out_.fabrics.insert(out_.fabrics.end(), g_.fabrics.begin(), g_.fabrics.end());
     out_.membrane_models.resize(out_.fabrics.size(), g_.membrane);
+    findColumns();
     addPoints(number);
     addMembranes();
     addHinges();
     addSides();
-    out_.T.column_count += static_cast<int>(mesh_.vertices.size());
+    out_.sewn = out_.sewn || !g_.ties.empty();
+    for (MeshTie tie : g_.closed ? std::vector<MeshTie>{} : g_.ties) {
+      for (std::size_t k = 0; k < 2; ++k) tie.vertex[k] = pointOf(tie.patch[k], tie.vertex[k]);
+      tie.seam += first_seam;
+      out_.ties.push_back(tie);
+    }
+    out_.T.column_count += columns_;
   }
 
  private:
+  /// The free point that each vertex is: its own, or that of all to which closed seams tie it.
+  void findColumns() {
+    const auto n = mesh_.vertices.size();
+    std::vector<int> lowest(n);
+    std::iota(lowest.begin(), lowest.end(), 0);
+    const auto find = [&](int v) {
+      while (lowest[static_cast<std::size_t>(v)] != v) v = lowest[static_cast<std::size_t>(v)];
+      return v;
+    };
+    if (g_.closed)
+      for (const MeshTie& tie : g_.ties) {
+        const int a = find(tie.vertex[0]), b = find(tie.vertex[1]);
+        lowest[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+      }
+    column_.resize(n);
+    for (std::size_t v = 0; v < n; ++v) {
+      const int own = find(static_cast<int>(v));
+      column_[v] = own == static_cast<int>(v) ? columns_++ : column_[static_cast<std::size_t>(own)];
+    }
+  }
+
   void addPoints(int number) {
     point_of_.resize(mesh_.patch_names.size());
     std::size_t next = 0;
@@ -111,7 +141,8 @@ class Builder {
         for (int v : mesh_.triangles[next]) {
           if (!point_of_[p].emplace(v, static_cast<int>(out_.rest.size())).second) continue;
           out_.rest.push_back(mesh_.vertices[static_cast<std::size_t>(v)]);
-          out_.T.add(out_.T.column_count + v, 1);
+          out_.vertex.push_back(first_vertex_ + v);
+          out_.T.add(out_.T.column_count + column_[static_cast<std::size_t>(v)], 1);
           out_.T.endRow();
         }
       patch.end_point = static_cast<int>(out_.rest.size());
@@ -208,6 +239,9 @@ class Builder {
   int first_patch_;
   std::size_t first_triangle_;
   int first_fabric_;
+  int first_vertex_;
+  std::vector<int> column_;  ///< of each vertex, from the garment's first on
+  int columns_ = 0;
   std::vector<std::map<int, int>> point_of_;  ///< of each patch: vertex to point
   std::vector<Flat> flats_;
 };
@@ -217,7 +251,12 @@ class Builder {
 TriangleParts buildTriangles(std::span<const MeshDraft> garments) {
   if (garments.empty()) throw InputError({"", 0, "garments"}, "at least one garment is needed");
   TriangleParts parts;
-  for (std::size_t g = 0; g < garments.size(); ++g) Builder(garments[g], static_cast<int>(g), parts);
+  int seams = 0, vertices = 0;
+  for (std::size_t g = 0; g < garments.size(); ++g) {
+    Builder(garments[g], static_cast<int>(g), seams, vertices, parts);
+    seams += garments[g].sewn_seams;
+    vertices += static_cast<int>(garments[g].mesh.vertices.size());
+  }
   parts.first_triangle.push_back(static_cast<int>(parts.triangles.size()));
   return parts;
 }

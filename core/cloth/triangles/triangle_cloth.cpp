@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <set>
 #include <utility>
 
 #include "core/cloth/draft/grid_lines.hpp"
@@ -133,7 +136,7 @@ std::vector<Vec3> TriangleCloth::fromDraft(std::span<const Vec3> control) const 
     first += columns;
     of_vertex.insert(of_vertex.end(), own.begin(), own.end());
   }
-  for (int i = 0; i < points(); ++i) out.push_back(of_vertex[static_cast<std::size_t>(freePoint(i))]);
+  for (const int v : parts_.vertex) out.push_back(of_vertex[static_cast<std::size_t>(v)]);
   return out;
 }
 
@@ -190,8 +193,8 @@ Surface TriangleCloth::surface(std::span<const int>) const {
       }
       s.triangles.push_back(corner);
       s.triangle_patch.push_back(p);
-      s.triangle_cell.push_back(
-          grid.empty() ? t - first : cellBetween(us, middle.x) + (nu - 1) * cellBetween(vs, middle.y));
+      s.triangle_cell.push_back(grid.empty() ? t - first
+                                             : cellBetween(us, middle.x) + (nu - 1) * cellBetween(vs, middle.y));
     }
     s.patch_grid_size.push_back(grid.empty() ? std::array<int, 2>{firstTriangle(p + 1) - first + 1, 2}
                                              : std::array<int, 2>{nu, static_cast<int>(vs.size())});
@@ -202,7 +205,44 @@ Surface TriangleCloth::surface(std::span<const int>) const {
       for (int point : side) s.edge_samples.back().back().push_back(map_.T.columns[static_cast<std::size_t>(point)]);
     }
   }
+  s.twins = twins();
   return s;
+}
+
+SewnRows TriangleCloth::sewnRows() const {
+  SewnRows rows;
+  rows.C.column_count = points();
+  for (const MeshTie& tie : parts_.ties) {
+    const auto [a, b] = tie.vertex;
+    rows.C.add(std::min(a, b), a < b ? 1 : -1);
+    rows.C.add(std::max(a, b), a < b ? -1 : 1);
+    rows.C.endRow();
+    rows.length_m.push_back(tie.length_m);
+    rows.hat_m.push_back(tie.spacing_m);
+    rows.seam.push_back(tie.seam);
+    rows.cell_m.push_back(tie.cell_m);
+  }
+  rows.pairs = rows.C;
+  return rows;
+}
+
+std::vector<std::array<int, 2>> TriangleCloth::twins() const {
+  std::map<int, std::set<int>> group;  // by the first found of each
+  std::map<int, int> group_of;
+  for (const MeshTie& tie : parts_.ties) {
+    const int a = freePoint(tie.vertex[0]), b = freePoint(tie.vertex[1]);
+    const int to = group_of.try_emplace(a, a).first->second, from = group_of.try_emplace(b, b).first->second;
+    group[to].insert(a), group[from].insert(b);
+    if (to == from) continue;
+    for (const int i : group[from]) group[to].insert(i), group_of[i] = to;
+    group.erase(from);
+  }
+  std::vector<std::array<int, 2>> out;
+  for (const auto& [first, members] : group)
+    for (auto i = members.begin(); i != members.end(); ++i)
+      for (auto k = std::next(i); k != members.end(); ++k) out.push_back({*i, *k});
+  std::sort(out.begin(), out.end());
+  return out;
 }
 
 Bulges TriangleCloth::bulges(const Surface& surface, std::span<const int>) const {
@@ -296,6 +336,30 @@ std::vector<double> TriangleCloth::masses() const {
     for (int c : t.corner)
       mass[static_cast<std::size_t>(c)] +=
           parts_.fabrics[static_cast<std::size_t>(t.law)].surfaceDensity() * t.area_m2 / 3;
+  if (!parts_.sewn) return mass;
+  // As much as so large a part of what a vertex inside of its patch bears; what that takes comes from all others alike.
+  constexpr double share = 0.3;
+  std::vector<double> least(mass.size());
+  for (std::size_t p = 0; p < parts_.patches.size(); ++p) {
+    const auto from = static_cast<std::size_t>(parts_.patches[p].first_point),
+               end = static_cast<std::size_t>(parts_.patches[p].end_point);
+    const double whole =
+        std::accumulate(mass.begin() + static_cast<long>(from), mass.begin() + static_cast<long>(end), 0.0);
+    const int triangles = firstTriangle(static_cast<int>(p) + 1) - firstTriangle(static_cast<int>(p));
+    for (std::size_t i = from; i < end; ++i) least[i] = share * whole / (0.5 * triangles);
+  }
+  const double sum = std::accumulate(mass.begin(), mass.end(), 0.0);
+  const auto given = [&](double factor) {
+    double total = 0;
+    for (std::size_t i = 0; i < mass.size(); ++i) total += std::max(factor * mass[i], least[i]);
+    return total;
+  };
+  double low = 0, high = 1;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    (given(middle) > sum ? high : low) = middle;
+  }
+  for (std::size_t i = 0; i < mass.size(); ++i) mass[i] = std::max(low * mass[i], least[i]);
   return mass;
 }
 

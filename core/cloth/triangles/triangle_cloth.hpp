@@ -61,6 +61,8 @@ class TriangleCloth : public Cloth {
   std::vector<NetEdge> net() const override;
 
   std::vector<double> areas() const override;
+  /// Of panels that are sewn each vertex bears 0.3 of what one inside of its patch does, or more: slivers at the ends
+  /// of seams would shorten all steps.
   std::vector<double> masses() const override;
   SparseRows consistentMass() const override;
 
@@ -84,6 +86,9 @@ class TriangleCloth : public Cloth {
   StrainRows strainRows(Mobility mobility, LimitPoints points) const override;
   Vec2 limitStressAt(const StrainRows& rows, std::span<const Vec2> field, int patch, Vec2 uv) const override;
 
+  /// Of panels that are sewn: a row for each two vertices that a seam joins (sewn_mesh.hpp).
+  SewnRows sewnRows() const override;
+
   const Mounting& mounting() const override { return *mounting_; }
 
   /// A place's triangle among all, and its barycentric coordinates.
@@ -101,6 +106,9 @@ class TriangleCloth : public Cloth {
   int firstTriangle(int patch) const { return parts_.first_triangle[static_cast<std::size_t>(patch)]; }
 
  private:
+  /// Pairs of free points that seams hold at one place, directly or through others.
+  std::vector<std::array<int, 2>> twins() const;
+
   std::vector<MeshDraft> garments_;
   TriangleParts parts_;  ///< its elements have gone to elements_
   FreeMap map_;

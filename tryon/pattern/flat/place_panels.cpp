@@ -469,7 +469,7 @@ class Placing {
     return out.empty() ? all : out;
   }
 
-  /// `side` 0: left. Around the line from shoulder to hand.
+  /// `side` 0: left. Along the line from shoulder to hand, as near to the arm as it is free of all else.
   void placeSleeves(int side, double clearance_m, const std::vector<Vec3>& others, PlacedPanels& out) const {
     const std::vector<int>& panels = sleeves_[side];
     if (panels.empty()) return;
@@ -496,31 +496,45 @@ class Placing {
     }
     move(all, {-0.5 * (lowOf(all).x + highOf(all).x), 0});
     const double half = highOf(all).x, low = lowOf(all).y;
-    for (double down = 0; down <= kFarthest_m; down += kSlide_m) {
-      double radius = 0;
-      for (const Vec3& x : form_.points(arms_[side])) {
-        const Vec3 r = x - shoulder;
-        const double along = dot(r, up);
-        if (along < -down + 0.02 && along > low - down - 0.02) radius = std::max(radius, norm(r - along * up));
-      }
-      // A gutter whose sides go on straight, no further than the arm is thick.
-      const double quarter = 0.5 * std::numbers::pi;
-      const double rho = std::max(radius + clearance_m, (half - radius) / quarter);
-      const auto world = [=](Vec2 x) {
-        const double bent = std::clamp(x.x, -quarter * rho, quarter * rho), angle = bent / rho;
-        return shoulder + (x.y - down) * up + (rho * std::sin(angle)) * right +
-               (rho * std::cos(angle) - std::abs(x.x - bent)) * off;
-      };
-      for (const LaidPanel& p : all) set(out, p, world);
-      bool free = true;
-      for (const LaidPanel& p : all)
-        for (const Vec2 x : samplesOf(pattern_.panels[static_cast<std::size_t>(p.panel)])) {
-          const Vec3 at = world(p.of(x));
-          free = free && body_.depth(at).depth_m < -kBody_m &&
-                 std::none_of(others.begin(), others.end(), [&](const Vec3& o) { return norm(o - at) < kFree_m; });
-          if (!free) break;
+    for (const double clearance : kClearances_m) {
+      if (clearance > clearance_m) break;
+      for (double down = 0; down <= kFarthest_m; down += kSlide_m) {
+        // What of the arm lies in it: the middle across, and how far it reaches from there.
+        std::vector<Vec2> arm_points;
+        Vec2 least{1e300, 1e300}, most{-1e300, -1e300};
+        for (const Vec3& x : form_.points(arms_[side])) {
+          const Vec3 r = x - shoulder;
+          const double along = dot(r, up);
+          if (!(along < -down + 0.02 && along > low - down - 0.02)) continue;
+          const Vec2 p{dot(r, right), dot(r, off)};
+          arm_points.push_back(p);
+          least = {std::min(least.x, p.x), std::min(least.y, p.y)};
+          most = {std::max(most.x, p.x), std::max(most.y, p.y)};
         }
-      if (free) return;
+        if (arm_points.empty()) continue;
+        const Vec2 middle{0.5 * (least.x + most.x), 0.5 * (least.y + most.y)};
+        double radius = 0;
+        for (const Vec2 p : arm_points) radius = std::max(radius, std::hypot(p.x - middle.x, p.y - middle.y));
+        // A gutter whose sides go on straight, no further than the arm is thick: its edges meet under the arm.
+        const double quarter = 0.5 * std::numbers::pi;
+        const double rho = std::max(radius + clearance, (half - radius) / quarter);
+        const Vec3 axis = shoulder + middle.x * right + middle.y * off;
+        const auto world = [=](Vec2 x) {
+          const double bent = std::clamp(x.x, -quarter * rho, quarter * rho), angle = bent / rho;
+          return axis + (x.y - down) * up + (rho * std::sin(angle)) * right +
+                 (rho * std::cos(angle) - std::abs(x.x - bent)) * off;
+        };
+        for (const LaidPanel& p : all) set(out, p, world);
+        bool free = true;
+        for (const LaidPanel& p : all)
+          for (const Vec2 x : samplesOf(pattern_.panels[static_cast<std::size_t>(p.panel)])) {
+            const Vec3 at = world(p.of(x));
+            free = free && body_.depth(at).depth_m < -kBody_m &&
+                   std::none_of(others.begin(), others.end(), [&](const Vec3& o) { return norm(o - at) < kFree_m; });
+            if (!free) break;
+          }
+        if (free) return;
+      }
     }
     reject(pattern_, panels[0],
            fmt::format("finds no room around the {} arm beside the other panels and the body",

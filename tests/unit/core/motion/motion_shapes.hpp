@@ -64,6 +64,11 @@ struct Motion {
     model = buildModel(g, o, e, c, std::move(obstacles), shell);
     state = initialState(*model, stage, 0, work);
   }
+  Motion(std::shared_ptr<const Cloth> cloth, const Environment& e, const ContactParameters& c = {},
+         const ModelOptions& o = {}) {
+    model = buildModel(std::move(cloth), o, e, c, {});
+    state = initialState(*model, stage, 0, work);
+  }
 
   /// Forces again, after positions or velocities were set by hand.
   void restart() { attachSprings(*model, stage, state, work); }

@@ -1,0 +1,253 @@
+/// Flat panels of triangles, sewn vertex to vertex: their meshes, and how they move.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <set>
+
+#include "core/cloth/triangles/draft_mesh.hpp"
+#include "core/cloth/triangles/sewn_mesh.hpp"
+#include "core/cloth/triangles/triangle_cloth.hpp"
+#include "core/error.hpp"
+#include "core/motion/sewing.hpp"
+#include "unit/core/cloth/sewn_shapes.hpp"
+#include "unit/core/motion/motion_shapes.hpp"
+
+namespace gambeson {
+namespace {
+
+using namespace shapes;
+
+CutSheet sewnSheet(bool apart) {
+  CutSheet sheet;
+  sheet.hold = SeamHold::projected;
+  sheet.apart = apart;
+  return sheet;
+}
+
+std::shared_ptr<const Cloth> trianglesOf(const Garment& g) {
+  return std::make_shared<TriangleCloth>(std::vector<MeshDraft>{meshDraft(g, MeshKind::single)});
+}
+
+/// A square [-half, half]^2 without the wedge of this angle about the x axis, its tip in the middle; one panel.
+Garment dartSheet(double half, double dart, int cells, double lean = 0) {
+  Garment g = garmentOf({panelPatch(cells, cells, {-half, -half}, {half, half})}, {}, sheetFabric());
+  const double up = half * std::tan(dart / 2 + lean), down = half * std::tan(dart / 2 - lean);
+  g.trims.resize(1);
+  g.trims[0].loops = {polygon(std::vector<Vec2>{
+      {0, 0}, {half, up}, {half, half}, {-half, half}, {-half, -half}, {half, -half}, {half, -down}})};
+  g.sewn_seams = {{{loopPart(g, 0, 0, 0)}, {loopPart(g, 0, 0, 6, true)}}};
+  return g;
+}
+
+TEST(SewnTriangles, BothSidesOfASeamHaveAsManyVertices) {
+  const Garment g = sewnSheet(false).garment(sheetFabric());
+  const MeshDraft draft = meshDraft(g, MeshKind::single);
+  ASSERT_GT(draft.ties.size(), 8u);
+  std::array<std::set<int>, 2> seen;
+  double length = 0;
+  for (const MeshTie& tie : draft.ties) {
+    EXPECT_EQ(tie.seam, 0);
+    const Vec3 &a = draft.mesh.vertices[static_cast<std::size_t>(tie.vertex[0])],
+               &b = draft.mesh.vertices[static_cast<std::size_t>(tie.vertex[1])];
+    EXPECT_LT(norm(a - b), 1e-9);
+    EXPECT_TRUE(seen[0].insert(tie.vertex[0]).second);
+    EXPECT_TRUE(seen[1].insert(tie.vertex[1]).second);
+    length += tie.length_m;
+  }
+  EXPECT_NEAR(length, lengthOf(g, g.sewn_seams[0].a), 1e-9);
+  double area = 0;
+  for (const auto& t : draft.mesh.triangles) {
+    const auto at = [&](int k) {
+      return draft.mesh.vertices[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
+    };
+    area += 0.5 * norm(cross(at(1) - at(0), at(2) - at(0)));
+  }
+  EXPECT_NEAR(area, 0.3 * 0.2, 1e-9);
+}
+
+/// Sides of unequal length, of more parts than one, with corners that lie over no corner.
+TEST(SewnTriangles, VerticesLieAtEqualFractionsWhereNoCornerIsNear) {
+  Garment g =
+      garmentOf({panelPatch(10, 10, {0, 0}, {0.4, 0.4}), panelPatch(15, 10, {0, 1}, {0.6, 1.4})}, {}, sheetFabric());
+  // The upper side of the first in two parts, 0.13 m and the rest, onto the lower one of the second, which is longer.
+  g.sewn_seams = {{{sidePart(g, {0, Side::v1, false}, 0, 0.325), sidePart(g, {0, Side::v1, false}, 0.325, 1)},
+                   {sidePart(g, {1, Side::v0, false})}}};
+  const MeshDraft draft = meshDraft(g, MeshKind::single);
+  ASSERT_GT(draft.ties.size(), 10u);
+  bool corner = false;
+  for (const MeshTie& tie : draft.ties) {
+    const Vec3 &a = draft.mesh.vertices[static_cast<std::size_t>(tie.vertex[0])],
+               &b = draft.mesh.vertices[static_cast<std::size_t>(tie.vertex[1])];
+    EXPECT_NEAR(a.x / 0.4, b.x / 0.6, 1e-9);
+    corner = corner || std::abs(a.x - 0.13) < 1e-9;
+  }
+  EXPECT_TRUE(corner);
+  // Another seam ends at 0.2 m of the first: within a quarter of a cell of the image of no corner, it has its own
+  // vertex on both sides; 3 mm from the other's end both are one.
+  g.patches.push_back(panelPatch(5, 5, {2, 0}, {2.2, 0.2}));
+  g.patch_names.clear();
+  g.weft.push_back(g.weft[0]);
+  const double end = 0.2 / 0.6;
+  g.sewn_seams.push_back({{sidePart(g, {1, Side::v1, false}, 0, end)}, {sidePart(g, {2, Side::v0, false})}});
+  const MeshDraft more = meshDraft(g, MeshKind::single);
+  int of_second = 0;
+  for (const MeshTie& tie : more.ties) of_second += tie.seam == 1;
+  EXPECT_EQ(of_second, 6);
+}
+
+TEST(SewnTriangles, RefusesWhatItCannotSew) {
+  CutSheet sheet = sewnSheet(false);
+  sheet.hold = SeamHold::weak;
+  EXPECT_THROW(meshDraft(sheet.garment(sheetFabric()), MeshKind::single), InputError);
+  sheet = sewnSheet(false);
+  sheet.stiffness_N = 1e-3;
+  EXPECT_THROW(meshDraft(sheet.garment(sheetFabric()), MeshKind::single), InputError);
+  EXPECT_THROW(meshDraft(sewnSheet(false).garment(sheetFabric()), MeshKind::equilateral), InputError);
+  Garment g = sewnSheet(false).garment(sheetFabric());
+  g.patches[0].points[5].z += 0.01;
+  EXPECT_THROW(meshDraft(g, MeshKind::single), InputError);
+  g = sewnSheet(false).garment(sheetFabric());
+  g.sewn_seams[0].b = g.sewn_seams[0].a;
+  EXPECT_THROW(meshDraft(g, MeshKind::single), InputError);
+}
+
+double stableStep(Motion& m) {
+  State s = m.state;
+  return 2 / largestFrequency(*m.model, m.stage, s, 80, m.work).largest_rad_per_s;
+}
+
+/// Free panels that lie apart at rest start where they are placed.
+Motion placedMotion(const Garment& g, const Environment& e) {
+  ModelOptions o;
+  o.self_contact = false;
+  const std::shared_ptr<const Cloth> cloth = trianglesOf(g);
+  Motion m(cloth, e, {}, o);
+  std::vector<Vec3> moved;
+  for (std::size_t p = 0; p < g.patches.size(); ++p)
+    for (std::size_t i = 0; i < g.patches[p].points.size(); ++i)
+      moved.push_back(g.placed[p][i] - g.patches[p].points[i]);
+  const std::vector<Vec3> by = cloth->fromDraft(moved);
+  for (int i = 0; i < m.model->freeCount(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    m.state.p[at] += by[static_cast<std::size_t>(cloth->map().home[at])];
+  }
+  m.restart();
+  return m;
+}
+
+TEST(SewnTriangles, AFreeSheetKeepsItsMomentaAndItsStep) {
+  const Garment g = sewnSheet(true).garment(sheetFabric());
+  Motion m = placedMotion(g, {{0, 0, 0}, 0});
+  Garment unsewn = g;
+  for (SewnSeam& seam : unsewn.sewn_seams) seam.hold = SeamHold::open;
+  Motion open = placedMotion(unsewn, {{0, 0, 0}, 0});
+  EXPECT_TRUE(open.model->sewing.empty());
+  const double dt = 0.4 * stableStep(m);
+  EXPECT_GT(stableStep(m), 0.95 * stableStep(open));
+  for (std::size_t i = 0; i < m.state.v.size(); ++i) {
+    const Vec3 x = m.state.p[i] / 0.3;
+    m.state.v[i] = Vec3{0.3 * x.y, 0.4 * std::sin(3 * x.x), 0.8 * std::cos(5 * x.x) * x.y} + Vec3{0.2, 0.1, -0.1};
+  }
+  m.step(dt);
+  const auto momenta = [&](Vec3& linear, Vec3& angular, double& size) {
+    linear = angular = {};
+    size = 0;
+    for (std::size_t i = 0; i < m.state.v.size(); ++i) {
+      const Vec3 p = m.model->mass_kg[i] * m.state.v[i];
+      linear += p, angular += cross(m.state.p[i], p), size += norm(p);
+    }
+  };
+  Vec3 l0, a0, l1, a1;
+  double size = 0, gap = 0;
+  momenta(l0, a0, size);
+  for (int k = 0; k < 400; ++k) {
+    ASSERT_EQ(m.step(dt).failure, StepFailure::none);
+    gap = std::max(gap, widestGap(*m.model, m.state.p));
+  }
+  momenta(l1, a1, size);
+  EXPECT_LT(norm(l1 - l0), 1e-9 * size);
+  EXPECT_LT(norm(a1 - a0), 1e-9 * 0.3 * size);
+  EXPECT_LT(gap, 1e-9);
+}
+
+/// The free edge of a sheet that swings down from its held edge, sewn and in one piece, as parts of its way.
+double swingError(int cells) {
+  CutSheet sheet = sewnSheet(false);
+  sheet.cells = cells;
+  Fabric fabric = sheetFabric();
+  fabric.law = LinearBending{{2e-4, 2e-4}};
+  const Garment g = sheet.garment(fabric), one = sheet.whole(fabric, cells);
+  const Environment e{{0, 0, -9.81}, 0.1};
+  const auto motionOf = [&](const Garment& of) {
+    ModelOptions o;
+    o.self_contact = false;
+    const std::shared_ptr<const Cloth> cloth = trianglesOf(of);
+    for (int i = 0; i < cloth->points(); ++i)
+      if (std::abs(cloth->rest()[static_cast<std::size_t>(i)].x) < 1e-9) o.held_control_points.push_back(i);
+    return Motion(cloth, e, {}, o);
+  };
+  Motion sewn = motionOf(g), whole = motionOf(one);
+  const auto edge = [&](const Motion& m) {  // the mean of the far edge
+    Vec3 sum{};
+    double count = 0;
+    for (int i = 0; i < m.model->freeCount(); ++i) {
+      const int home = m.model->cloth->map().home[static_cast<std::size_t>(i)];
+      if (std::abs(m.model->cloth->rest()[static_cast<std::size_t>(home)].x - sheet.length) < 1e-9)
+        sum += m.state.p[static_cast<std::size_t>(i)], ++count;
+    }
+    return sum / count;
+  };
+  const Vec3 start = edge(whole);
+  const double seconds = 0.25, dt = 0.5 * std::min(stableStep(sewn), stableStep(whole));
+  const int steps = static_cast<int>(std::ceil(seconds / dt));
+  double error = 0, way = 0;
+  for (int k = 1; k <= steps; ++k) {
+    EXPECT_EQ(sewn.step(seconds / steps).failure, StepFailure::none);
+    EXPECT_EQ(whole.step(seconds / steps).failure, StepFailure::none);
+    error = std::max(error, norm(edge(sewn) - edge(whole)));
+    way = std::max(way, norm(edge(whole) - start));
+  }
+  std::printf("swing, %d cells: edge goes %.4f m, off by %.2f %%; %d steps\n", cells, way, 100 * error / way, steps);
+  return error / way;
+}
+
+/// A seam is a hinge without resistance: what the cloth's own bending does across it is missing, less of it on finer
+/// cells. The cloth here is stiff for its weight.
+TEST(SewnTriangles, ASheetCutByAnSSwingsNearlyLikeTheWholeOne) {
+  const double coarse = swingError(8), fine = swingError(16);
+  EXPECT_LT(coarse, 0.1);
+  EXPECT_LT(fine, 0.1);
+}
+
+/// A dart closes to a cone, whichever way its legs lean on the grid: nothing gapes, and no cell stretches.
+TEST(SewnTriangles, DartsThatLeanClose) {
+  for (const double lean : {0.0, 0.1}) {
+    ModelOptions o;
+    o.self_contact = false;
+    Motion m(trianglesOf(dartSheet(0.1, 0.3, 12, lean)), {{0, 0, 0}, 0}, {}, o);
+    m.model->sewing_options = {15, 0.5};
+    for (std::size_t i = 0; i < m.model->mass_kg.size(); ++i) {
+      m.model->drag_kg_per_s[i] = 20 * m.model->mass_kg[i];
+      m.state.p[i].z += 0.2 * norm(m.state.p[i]);  // a cone already, or it would crumple
+    }
+    m.restart();
+    const double dt = 0.5 * stableStep(m);
+    for (double t = 0; t < 1; t += dt) ASSERT_EQ(m.step(dt).failure, StepFailure::none);
+    EXPECT_LT(widestGap(*m.model, m.state.p), 1e-4) << lean;
+    const Cloth& cloth = *m.model->cloth;
+    double longest = 0;
+    for (const NetEdge& e : cloth.net()) {
+      const auto at = [&](int i) {
+        return m.state.p[static_cast<std::size_t>(cloth.map().T.columns[static_cast<std::size_t>(i)])];
+      };
+      longest = std::max(longest, std::abs(norm(at(e.first) - at(e.second)) * std::sqrt(e.per_length2) - 1));
+    }
+    std::printf("dart that leans by %g: gap %.1e cells, strain %.2e\n", lean, widestGap(*m.model, m.state.p), longest);
+    EXPECT_LT(longest, 0.02);
+  }
+}
+
+}  // namespace
+}  // namespace gambeson
