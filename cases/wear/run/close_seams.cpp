@@ -9,6 +9,7 @@
 #include "cases/wear/scene/garments.hpp"
 #include "cases/wear/scene/worn.hpp"
 #include "core/error.hpp"
+#include "core/material/fabric_law.hpp"
 #include "core/motion/free_steps.hpp"
 #include "core/motion/sewing.hpp"
 #include "human/motion/standing.hpp"
@@ -113,6 +114,17 @@ State closedAround(const Scenario& s, double closed_s, Frequency& frequency, Dre
   return state;
 }
 
+/// Triangles bend by hinges that are quadratic in the positions while seams close, where these know their fabrics:
+/// cells that are crushed on the way fold back, where tensors of curvature grow as stiff as cells grow small.
+void bendSoftly(const Case& c, GarmentCase& worn) {
+  if (worn.cloth.kind != ClothKind::triangles) return;
+  std::vector<Fabric> fabrics = otherFabrics(worn);
+  fabrics.push_back(fabricOf(c, worn));
+  if (std::all_of(fabrics.begin(), fabrics.end(),
+                  [](const Fabric& f) { return std::holds_alternative<LinearBending>(f.law) && !hasRestCurvature(f); }))
+    worn.cloth.bending = BendingElements::quadratic;
+}
+
 }  // namespace
 
 std::unique_ptr<Scenario> standingPanels(const Case& one, const Case& whole, std::size_t garment) {
@@ -127,6 +139,7 @@ std::unique_ptr<Scenario> standingPanels(const Case& one, const Case& whole, std
   standing.contact.friction_cloth.reset();
   standing.garments[0].friction.reset();
   for (ObstacleCase& obstacle : standing.obstacles) obstacle.friction.reset();
+  bendSoftly(standing, standing.garments[0]);
   std::unique_ptr<Scenario> s = buildAlone(standing, whole, garment);
   Model& m = *s->model;
   m.sewing_options = {closing_per_s, closing_m_per_s};

@@ -144,12 +144,7 @@ void putOn(Scenario& s) {
 void putOn(Scenario& s, DressingProgress& progress) {
   const DressingCase& dressing = s.definition.dressing;
   const Case& c = s.definition;
-  if (dressing.layer_by_layer && dressing.from.empty()) {
-    const Dressed worn = putOnApart(c, progress);
-    wear(s, worn);
-    const auto sewn = [](const GarmentCase& g) { return kindOf(g).sewn; };
-    if (s.stage->dressed && std::any_of(c.garments.begin(), c.garments.end(), sewn)) s.stage->dressed = worn.posture;
-  }
+  if (dressing.layer_by_layer && dressing.from.empty()) wear(s, putOnApart(c, progress));
   if (c.human || !kindOf(c.garments[0]).sewn) return;
   const std::unique_ptr<Scenario> panels = standingPanels(alone(c, 0), c, 0);
   s.start_m = sew(s.model->cloth->map(), controlPoints(*panels, sewnAround(*panels, progress)));

@@ -198,7 +198,10 @@ void putOnAtStart(const Case& c, const Only& only, Scenario& s) {
              std::any_of(c.garments.begin(), c.garments.end(),
                          [](const GarmentCase& worn) { return kindOf(worn).drafted || kindOf(worn).sewn; }) &&
              s.human) {
-    s.stage->dressed = dressingPosture(only.of ? *only.of : c, *s.human);  // which the garments are drafted for
+    // Drafts settle from the posture that they are drafted for; panels have been brought to the first one (close_seams).
+    const bool sewn = std::any_of(c.garments.begin(), c.garments.end(),
+                                  [](const GarmentCase& worn) { return kindOf(worn).sewn; });
+    s.stage->dressed = sewn && !only.of ? s.motion->at(0) : dressingPosture(only.of ? *only.of : c, *s.human);
   }
 }
 

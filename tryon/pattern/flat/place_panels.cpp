@@ -469,7 +469,27 @@ class Placing {
     return out.empty() ? all : out;
   }
 
-  /// `side` 0: left. Along the line from shoulder to hand, as near to the arm as it is free of all else.
+  /// Where an arm lies across, (to its right, off the trunk) from its shoulder, between two places along its way up.
+  struct ArmBox {
+    Vec2 middle, half;
+  };
+  struct ArmWays {
+    Vec3 right, off, up;
+  };
+  ArmBox boxOfArm(const StandingBody::Links& arm, const Vec3& shoulder, const ArmWays& ways, double from,
+                  double to) const {
+    Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
+    for (const Vec3& x : form_.points(arm)) {
+      const Vec3 r = x - shoulder;
+      if (const double along = dot(r, ways.up); !(along > from && along < to)) continue;
+      low = {std::min(low.x, dot(r, ways.right)), std::min(low.y, dot(r, ways.off))};
+      high = {std::max(high.x, dot(r, ways.right)), std::max(high.y, dot(r, ways.off))};
+    }
+    if (!(low.x < high.x)) return {};
+    return {{0.5 * (low.x + high.x), 0.5 * (low.y + high.y)}, {0.5 * (high.x - low.x), 0.5 * (high.y - low.y)}};
+  }
+
+  /// `side` 0: left. Along the line from shoulder to hand.
   void placeSleeves(int side, double clearance_m, const std::vector<Vec3>& others, PlacedPanels& out) const {
     const std::vector<int>& panels = sleeves_[side];
     if (panels.empty()) return;
@@ -499,30 +519,19 @@ class Placing {
     for (const double clearance : kClearances_m) {
       if (clearance > clearance_m) break;
       for (double down = 0; down <= kFarthest_m; down += kSlide_m) {
-        // What of the arm lies in it: the middle across, and how far it reaches from there.
-        std::vector<Vec2> arm_points;
-        Vec2 least{1e300, 1e300}, most{-1e300, -1e300};
-        for (const Vec3& x : form_.points(arms_[side])) {
-          const Vec3 r = x - shoulder;
-          const double along = dot(r, up);
-          if (!(along < -down + 0.02 && along > low - down - 0.02)) continue;
-          const Vec2 p{dot(r, right), dot(r, off)};
-          arm_points.push_back(p);
-          least = {std::min(least.x, p.x), std::min(least.y, p.y)};
-          most = {std::max(most.x, p.x), std::max(most.y, p.y)};
-        }
-        if (arm_points.empty()) continue;
-        const Vec2 middle{0.5 * (least.x + most.x), 0.5 * (least.y + most.y)};
-        double radius = 0;
-        for (const Vec2 p : arm_points) radius = std::max(radius, std::hypot(p.x - middle.x, p.y - middle.y));
-        // A gutter whose sides go on straight, no further than the arm is thick: its edges meet under the arm.
-        const double quarter = 0.5 * std::numbers::pi;
-        const double rho = std::max(radius + clearance, (half - radius) / quarter);
-        const Vec3 axis = shoulder + middle.x * right + middle.y * off;
+        const ArmBox box = boxOfArm(arms_[side], shoulder, {right, off, up}, low - down - 0.02, -down + 0.02);
+        // A gutter: flat, round, then straight, no further than the arm is thick, whose walls are as near as can be.
+        constexpr double quarter = 0.5 * std::numbers::pi;
+        double wall = box.half.x + clearance, bottom = box.half.y + clearance, round = std::min(wall, bottom);
+        const double flat = wall - round, straight = half - flat - quarter * round;
+        if (const double more = (straight - 2 * bottom) / (quarter + 2); more > 0) bottom += more, round += more;
+        const Vec3 axis = shoulder + box.middle.x * right + (box.middle.y + bottom - round) * off;
         const auto world = [=](Vec2 x) {
-          const double bent = std::clamp(x.x, -quarter * rho, quarter * rho), angle = bent / rho;
-          return axis + (x.y - down) * up + (rho * std::sin(angle)) * right +
-                 (rho * std::cos(angle) - std::abs(x.x - bent)) * off;
+          const double s = std::abs(x.x), sense = x.x < 0 ? -1 : 1,
+                       angle = std::clamp((s - flat) / round, 0.0, quarter);
+          const double aside = std::min(s, flat) + round * std::sin(angle),
+                       above = round * std::cos(angle) - std::max(0.0, s - flat - quarter * round);
+          return axis + (x.y - down) * up + (sense * aside) * right + above * off;
         };
         for (const LaidPanel& p : all) set(out, p, world);
         bool free = true;

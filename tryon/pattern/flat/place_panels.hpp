@@ -7,8 +7,9 @@
 /// the shoulders, else a crotch seam's lower end at the crotch, else the upper edge of skirts at the waist and that of
 /// others under the armpits. Each plane is then bent about the vertical, without strain, around the convex hull of the
 /// body at these heights, `clearance` off it: as far towards the sides as its other half leaves room, and straight on
-/// from there. A sleeve is bent about the arm along the line from shoulder to hand, open towards the trunk, its highest point at the
-/// shoulder joint, as near to the arm as it can be; it slides down the arm until it is free of the other panels. Collars and waistbands that reach
+/// from there. A sleeve is bent about the arm along the line from shoulder to hand, open towards the trunk, its highest
+/// point at the shoulder joint, and as near to the arm as is free, so that its edges meet beyond it; it slides down the
+/// arm until it is free of the other panels. Collars and waistbands that reach
 /// around are rings above what they are sewn to. Where something passes through the body, all is tried again further
 /// off it.
 

@@ -221,6 +221,46 @@ TEST(SewnTriangles, ASheetCutByAnSSwingsNearlyLikeTheWholeOne) {
   EXPECT_LT(fine, 0.1);
 }
 
+/// Once closed, both vertices of a pair are one point, which moves as rows would have both move.
+TEST(SewnTriangles, ClosedSeamsMoveAsRowsDo) {
+  const Garment g = sewnSheet(false).garment(sheetFabric());
+  MeshDraft draft = meshDraft(g, MeshKind::single);
+  const auto rows = std::make_shared<TriangleCloth>(std::vector<MeshDraft>{draft});
+  draft.closed = true;
+  const auto closed = std::make_shared<TriangleCloth>(std::vector<MeshDraft>{draft});
+  EXPECT_TRUE(closed->sewnRows().empty());
+  EXPECT_EQ(closed->points(), rows->points());
+  EXPECT_EQ(closed->map().T.column_count + rows->sewnRows().rows(), rows->map().T.column_count);
+  EXPECT_TRUE(closed->surface({}).twins.empty());
+  EXPECT_EQ(rows->surface({}).twins.size(), draft.ties.size());
+  ModelOptions o;
+  o.self_contact = false;
+  Motion a(rows, {{0, 0, -9.81}, 0.1}, {}, o), b(closed, {{0, 0, -9.81}, 0.1}, {}, o);
+  const auto whirl = [](Motion& m) {
+    for (std::size_t i = 0; i < m.state.v.size(); ++i) {
+      const Vec3 x = m.state.p[i] / 0.3;
+      m.state.v[i] = {0.3 * x.y, 0.4 * std::sin(3 * x.x), 0.8 * std::cos(5 * x.x) * x.y};
+    }
+    m.restart();
+  };
+  whirl(a), whirl(b);
+  const double dt = 0.4 * stableStep(a);
+  for (int k = 0; k < 100; ++k) {
+    ASSERT_EQ(a.step(dt).failure, StepFailure::none);
+    ASSERT_EQ(b.step(dt).failure, StepFailure::none);
+  }
+  double off = 0, way = 0;
+  for (int i = 0; i < rows->points(); ++i) {
+    const auto at = [&](const Motion& m) {
+      return m.state.p[static_cast<std::size_t>(m.model->cloth->map().T.columns[static_cast<std::size_t>(i)])];
+    };
+    off = std::max(off, norm(at(a) - at(b)));
+    way = std::max(way, norm(at(b) - rows->rest()[static_cast<std::size_t>(i)]));
+  }
+  EXPECT_GT(way, 1e-3);
+  EXPECT_LT(off, 1e-9);
+}
+
 /// A dart closes to a cone, whichever way its legs lean on the grid: nothing gapes, and no cell stretches.
 TEST(SewnTriangles, DartsThatLeanClose) {
   for (const double lean : {0.0, 0.1}) {

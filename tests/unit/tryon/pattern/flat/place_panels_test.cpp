@@ -301,6 +301,42 @@ TEST(PlacePanels, ArmsThatCannotHangAreNotBroughtIn) {
   EXPECT_EQ(withArmsAside(human, standing(human), 1.2).q[shoulder], 1.2);
 }
 
+/// Seams close along straight lines: what is to be a tube around the arm has its edges beyond the arm.
+TEST(PlacePanels, EdgesOfASleeveLieUnderTheArm) {
+  int looked = 0;
+  for (const char* name : {"male_p50", "female_p50"}) {
+    const Human human = makeManikin(name);
+    const StandingBody form(human, withArmsAside(human, standing(human), kAside));
+    FlatPattern p = shirt(sizeFor(form));
+    p.seams.clear();
+    for (std::size_t k = 2; k < 4; ++k)
+      for (PanelEdge& e : p.panels[k].outline) e.start_m.x *= 1.6;  // 38 cm around the wrist
+    const PlacedPanels placed = placePanels(p, form);
+    for (std::size_t k = 2; k < 4; ++k) {
+      const std::string side = k == 2 ? "left" : "right";
+      const StandingBody::Links arm{form.link("upper_arm_" + side), form.link("forearm_" + side)};
+      const Vec3 shoulder = form.origin(arm[0]), hand = form.origin(form.link("hand_" + side));
+      const Vec3 way = normalized(hand - shoulder), outward{0, k == 2 ? 1.0 : -1.0, 0};
+      const Vec3 out = normalized(outward - dot(outward, way) * way);
+      for (const double up : {0.0, 0.3}) {  // part of the way from the hem to the cap's start
+        const PanelLoop& edges = p.panels[k].outline;
+        const auto at = [&](std::size_t low, std::size_t high) {
+          const Vec2 a = edges[low].start_m, b = edges[high].start_m;
+          return placed.bent[k]({a.x + up * (b.x - a.x), a.y + up * (b.y - a.y)});
+        };
+        const Vec3 middle = 0.5 * (at(0, 4) + at(1, 2));
+        double deepest = 1e300;  // of the arm beside it
+        for (const Vec3& x : form.points(arm))
+          if (std::abs(dot(x - middle, way)) < 0.03) deepest = std::min(deepest, dot(x, out));
+        if (deepest > 1e299) continue;  // beside the hand
+        ++looked;
+        EXPECT_LT(dot(middle, out), deepest + 0.02) << name << ", " << side << ", " << up;
+      }
+    }
+  }
+  EXPECT_GE(looked, 6);
+}
+
 /// Arms straight to the sides, and straight forward: the sleeve lies along the arm, open where the trunk is.
 TEST(PlacePanels, SleevesGoAlongArmsThatAreRaised) {
   const Human human = makeManikin("male_p50");
