@@ -5,7 +5,7 @@
 
 One that fits closes, crosses nothing and passes all checks of its run; one that is too narrow is worn too, and said to be
 short, by what the ball is wider; one with a dart and one whose side is open but for two buttons are worn as well; seams
-that have no time to close end the run by name; what is wrong in a pattern is said with file, panel and seam. Panels with
+that have no time to close end the run by name; one of triangles is worn as well; what is wrong in a pattern is said with file, panel and seam. Panels with
 armholes and necklines, whose corners trimming leaves slivers of, start below the shoulders that they close over, hang
 and cross nothing.
 """
@@ -111,6 +111,18 @@ def main():
         sound(done, place / "out", "the tube with a dart")
         again = run("check", place / "out/case.json", cwd=folder)
         check(again.returncode == 0, f"the case of the results gave {again.returncode}: {again.stderr}")
+
+        # The same as triangles, which meet vertex to vertex and are one once closed; they have no springs along seams.
+        cut = json.loads(json.dumps(CASE))
+        cut["garment"]["model"] = "triangles"
+        done, place = worn(folder, "triangles", darted, cut)
+        sound(done, place / "out", "the tube of triangles")
+        again = run("check", place / "out/case.json", cwd=folder)
+        check(again.returncode == 0, f"the case of its results gave {again.returncode}: {again.stderr}")
+        cut["garment"]["pattern"]["seams"] = [{"seam": "left", "stiffness": "1 mN"}]
+        done, place = worn(folder, "sprung", darted, cut)
+        check(done.returncode == 2 and "rotational spring" in done.stderr and '"left: ' in done.stderr,
+              f"a spring along a seam of triangles: {done.returncode}, {done.stderr}")
 
         # Two darts of 3 mm on 5 cm, with a strip of 9 mm between them, and a band from 4 to 14 mm: all less than a cell wide.
         narrow = pattern(0.53 * girth)
