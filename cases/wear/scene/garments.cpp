@@ -49,7 +49,7 @@ double layerOf(const Case& c, const GarmentCase& worn) {
 }
 
 /// Of arms that are out of the way of panels: from the sides, as in an A-pose.
-constexpr double aside_rad = 40.0 * rad_per_deg;
+constexpr double aside_rad = 50.0 * rad_per_deg;
 
 /// Who is dressed.
 struct Wearer {

@@ -101,7 +101,6 @@ TEST(PanelEdges, WhatSewnSeamsDoNotGoWithIsNamed) {
   const Folder folder;
   const std::filesystem::path file = folder.write("case.json", hung_skirt);
   for (const auto& [set, key] : {std::pair("strain_limit={\"mode\": \"upper_limit\", \"limit\": 0.05}", "strain_limit"),
-                                 {"garment.model=triangles", "garment.model"},
                                  {"garment.model=springs", "garment.model"},
                                  {"time.scheme=rk4", "time.scheme"}})
     try {
