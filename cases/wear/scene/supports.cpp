@@ -45,6 +45,9 @@ void addSupports(const Case& c, const Cloth& cloth, const std::vector<int>& firs
       e.patch += first[worn];
       on.lines.push_back(edgeSamples(surface, e));
     }
+    if (!on.edge.lines.empty() && c.garments[worn].cloth.kind == ClothKind::triangles)
+      throw InputError({"", 0, "edge"},
+                       "edges of panels are held where these are NURBS; allowed with it: \"model\": \"nurbs\"");
     for (std::vector<EdgePlace>& line : on.edge.lines) {
       for (EdgePlace& place : line) place.patch += first[worn];
       on.lines.push_back(lineSamples(surface, line));
