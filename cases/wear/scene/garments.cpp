@@ -48,8 +48,9 @@ double layerOf(const Case& c, const GarmentCase& worn) {
   return c.contact.layer_m.value_or(largestThickness(fabricOf(c, worn), otherFabrics(worn), worn.fields));
 }
 
-/// Of arms that are out of the way of panels: from the sides, as in an A-pose.
-constexpr double aside_rad = 50.0 * rad_per_deg;
+/// Of arms that are out of the way of panels: from the sides, as in an A-pose. A scan keeps its arms as it stood, where
+/// they were as far aside: its skin is truest there.
+constexpr double aside_rad = 50.0 * rad_per_deg, scan_aside_rad = 40.0 * rad_per_deg;
 
 /// Who is dressed.
 struct Wearer {
@@ -167,7 +168,7 @@ bool armsAside(const Case& c) {
 
 Posture dressingPosture(const Case& c, const Human& human) {
   const Posture posture = standing(human);
-  return armsAside(c) ? withArmsAside(human, posture, aside_rad) : posture;
+  return armsAside(c) ? withArmsAside(human, posture, c.human->scan ? scan_aside_rad : aside_rad) : posture;
 }
 
 Posture puttingOnPosture(const Case& c, const GarmentCase& worn, const Human& human) {
