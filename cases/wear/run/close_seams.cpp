@@ -18,8 +18,11 @@
 namespace gambeson {
 namespace {
 
-/// Seams of panels are closed [sides of a cell].
-constexpr double closed_cells = 0.01;
+/// Seams of panels are closed [sides of a cell]. Those of triangles close exactly, and what is left of a gap both sides
+/// are moved by at once when they become one.
+double closedCells(const Scenario& s) {
+  return s.definition.garments[0].cloth.kind == ClothKind::triangles ? 1e-3 : 0.01;
+}
 
 /// Of panels without weight: the speed of the widest gap, and the part of a gap that closes in a second. From their
 /// quotient on, 33 mm, seams bind contacts (findOpenSeams). And what contacts may leave of it, as a part of g dt: some
@@ -96,6 +99,7 @@ State closedAround(const Scenario& s, double closed_s, Frequency& frequency, Dre
   const std::unique_ptr<Integrator> integrator =
       makeIntegrator(time.motion, m, *s.stage, time.control(), frequency, work);
   double widest = widestGap(m, state.p);
+  const double closed_cells = closedCells(s);
   while (widest > closed_cells && state.time_s < closed_s - 1e-9) {
     integrator->advance(std::min(closed_s, state.time_s + seams_look_s), state, nobody);
     widest = widestGap(m, state.p);
