@@ -7,8 +7,9 @@
 
 namespace gambeson {
 
-/// The draft's shape, seams, edges, threads and fabrics; it lies at rest as it stands. Throws InputError (key "mesh")
-/// where seams join edges that have other vertices, or a patch is trimmed that cannot be.
+/// The draft's shape, seams, edges, threads and fabrics; it lies at rest as it stands. Flat panels with sewn seams are cut
+/// so that these join vertices (sewn_mesh.hpp), as ties. Throws InputError (key "mesh") where seams join edges that have
+/// other vertices, or a patch is trimmed that cannot be, and as sewnMesh does.
 MeshDraft meshDraft(const Garment& draft, MeshKind kind);
 
 }  // namespace gambeson
