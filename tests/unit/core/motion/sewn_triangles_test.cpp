@@ -84,8 +84,7 @@ TEST(SewnTriangles, VerticesLieAtEqualFractionsWhereNoCornerIsNear) {
     corner = corner || std::abs(a.x - 0.13) < 1e-9;
   }
   EXPECT_TRUE(corner);
-  // Another seam ends at 0.2 m of the first: within a quarter of a cell of the image of no corner, it has its own
-  // vertex on both sides; 3 mm from the other's end both are one.
+  // Another seam, of a third of the second panel's other side: a part of an edge, cells of its own.
   g.patches.push_back(panelPatch(5, 5, {2, 0}, {2.2, 0.2}));
   g.patch_names.clear();
   g.weft.push_back(g.weft[0]);
