@@ -4,10 +4,11 @@
 /// A seam holds points at equal fractions of the lengths of its two sides together. Here both sides of every seam have
 /// as many vertices, so that it joins each to one of the other side, and nothing gapes between them but what chords
 /// differ by. Corners of the borders and ends of seams are vertices; so is what lies over them across a seam, and over
-/// that across the next. Where a corner that comes over a seam falls within a quarter of a cell of one on the other side
-/// both are taken together, and the seam eases by so much there; ends of the parts that a seam's sides are made of are
-/// not: where these nearly meet there is an edge as short as what parts them. Between them edges are about a cell long, and turn by half a radian at
-/// most. Inside lie triangles that are nearly equilateral along the grain (core/math/planar_mesh.hpp).
+/// that across the next. Where a corner that comes over a seam falls within a quarter of a cell of one on the other
+/// side both are taken together, and the seam eases by so much there; ends of the parts that a seam's sides are made of
+/// are not: where these nearly meet there is an edge as short as what parts them. Between them edges are about a cell
+/// long, and turn by half a radian at most. Inside lie triangles that are nearly equilateral along the grain
+/// (core/math/planar_mesh.hpp).
 
 #include <array>
 #include <vector>
