@@ -405,8 +405,7 @@ bool resolveContacts(const Model& m, const State& in, double dt, StepReport& rep
     if (!any) return true;
     if (round == 1) report.impacts = static_cast<int>(w.hits.size() + w.pair_hits.size());
     if (round > kRounds) break;
-    for (const SampleHit& hit : w.hits) addImpact(m, in, hit, dt, round, w);
-    for (const PairHit& hit : w.pair_hits) addImpact(m, in, hit, dt, round, w);
+    addImpacts(m, in, dt, round, w);
   }
   const bool done = moveImpactZones(m, in, dt, report, w);
   clock.lap(w.times.impact);

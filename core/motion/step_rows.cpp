@@ -169,29 +169,49 @@ void addRow(const Model& m, const State& in, double dt, const ContactRow& row, S
 
 }  // namespace
 
-void addImpact(const Model& m, const State& in, const Contact& hit, double dt, int round, StepWork& w) {
-  const Vec3 body =
-      (w.stage.end.obstacles[hit.obstacle] * hit.local - w.stage.start.obstacles[hit.obstacle] * hit.local) / dt;
-  ContactRow row = bodyRow(hit, body, 0, true);
-  setImpactTarget(m, dt, round, row);
-  for (ContactRow& old : w.rows)
-    if (old.stencil.count == 1 && old.contact.sample == hit.sample && old.contact.obstacle == hit.obstacle &&
-        old.pair[0] < 0 && (old.impact || round > 2)) {
-      old = row;
-      return;
-    }
-  addRow(m, in, dt, row, w);
+namespace {
+
+/// What a row stands for where a hit may take its place: the sample and the obstacle after -1, or the pair of an
+/// impact.
+using ImpactKey = std::array<int, 3>;
+struct KnownRow {
+  ImpactKey key;
+  int row = 0;
+  bool operator<(const KnownRow& other) const { return std::tie(key, row) < std::tie(other.key, other.row); }
+};
+
+/// Rows in whose place hits of this round come, in order; those of a sample that lasts from the third round on.
+std::vector<KnownRow> replaceable(const StepWork& w, int round) {
+  std::vector<KnownRow> known;
+  for (std::size_t i = 0; i < w.rows.size(); ++i) {
+    const ContactRow& row = w.rows[i];
+    if (row.pair[0] >= 0)
+      known.push_back({row.pair, static_cast<int>(i)});
+    else if (row.stencil.count == 1 && (row.impact || round > 2))
+      known.push_back({{-1, row.contact.sample, row.contact.obstacle}, static_cast<int>(i)});
+  }
+  std::sort(known.begin(), known.end());
+  return known;
 }
 
-void addImpact(const Model& m, const State& in, const PairHit& hit, double dt, int round, StepWork& w) {
-  ContactRow row = hit.row;
-  setImpactTarget(m, dt, round, row);
-  for (ContactRow& old : w.rows)
-    if (old.pair == row.pair) {
-      old = row;
-      return;
-    }
-  addRow(m, in, dt, row, w);
+}  // namespace
+
+void addImpacts(const Model& m, const State& in, double dt, int round, StepWork& w) {
+  const std::vector<KnownRow> known = replaceable(w, round);
+  const auto add = [&](const ImpactKey& key, ContactRow row) {
+    setImpactTarget(m, dt, round, row);
+    const auto old = std::lower_bound(known.begin(), known.end(), KnownRow{key, 0});
+    if (old != known.end() && old->key == key)
+      w.rows[static_cast<std::size_t>(old->row)] = row;
+    else
+      addRow(m, in, dt, row, w);
+  };
+  for (const SampleHit& hit : w.hits) {
+    const Vec3 body =
+        (w.stage.end.obstacles[hit.obstacle] * hit.local - w.stage.start.obstacles[hit.obstacle] * hit.local) / dt;
+    add({-1, hit.sample, hit.obstacle}, bodyRow(hit, body, 0, true));
+  }
+  for (const PairHit& hit : w.pair_hits) add(hit.row.pair, hit.row);
 }
 
 namespace {

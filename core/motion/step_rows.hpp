@@ -14,10 +14,8 @@ ObstacleMotion motionOf(const StepWork& w);
 /// Rows of the persistent contacts with their warm tractions.
 void persistentRows(const Model& m, const State& in, double dt, StepWork& w);
 
-/// A sample's hit at an obstacle; replaces the row of the same pair.
-void addImpact(const Model& m, const State& in, const Contact& hit, double dt, int round, StepWork& w);
-
-/// A hit of triangles; replaces the row of the same pair.
-void addImpact(const Model& m, const State& in, const PairHit& hit, double dt, int round, StepWork& w);
+/// Rows of the hits of a round, w.hits and w.pair_hits, no two of which are of the same sample and obstacle or the same
+/// pair: each replaces the row of its own.
+void addImpacts(const Model& m, const State& in, double dt, int round, StepWork& w);
 
 }  // namespace gambeson

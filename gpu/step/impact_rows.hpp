@@ -1,5 +1,5 @@
 #pragma once
-/// Rows of the hits of a step, as core adds them (core/motion/step_rows.hpp, addImpact): sorted; one that stands for
+/// Rows of the hits of a step, as core adds them (core/motion/step_rows.hpp, addImpacts): sorted; one that stands for
 /// the same pair is replaced, others come behind.
 ///
 /// Core looks through all rows for each hit in turn. Hits of a round differ by what they ask for, so that none finds

@@ -1,7 +1,7 @@
 #pragma once
 /// What would pass through what during a step, and the rows that keep it apart, on a device: as core finds them
 /// (core/motion/collisions.hpp, findImpacts; core/contact/proximity.hpp, impacts) and adds them (core/motion/
-/// step_rows.hpp, addImpact), to the same bits. Without tangled samples.
+/// step_rows.hpp, addImpacts), to the same bits. Without tangled samples.
 ///
 /// Core leaves out pairs by certificates, margins, garments and blunt features: what is left out so is farther apart
 /// than the separation, and no rule of those decides what is found (gpu/DECISIONS.md). Here all pairs whose boxes meet

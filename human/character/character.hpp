@@ -19,7 +19,7 @@ struct CharacterOptions {
   std::string map;                 ///< a joint map of the kind "bones"; empty: the one that goes with the bones' names
   std::string like = "male_p50";   ///< the manikin whose limits of joints and shares of mass it takes
   std::optional<double> height_m;  ///< it is scaled to; otherwise as large as the file says
-  bool folds_off = false;          ///< what folds into itself during the motion is not touched (human/skin/overlap.hpp)
+  double bridge_folds_m = 0;  ///< folds narrower than this are bridged (human/skin/bridge_folds.hpp); 0: none
   std::optional<double> mass_kg;  ///< otherwise that of its volume at 1,000 kg/m³ (a body with air in the lungs floats)
 };
 

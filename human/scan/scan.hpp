@@ -18,7 +18,7 @@ struct ScanOptions {
   double close_holes = 0.25;       ///< rims up to this share of the body's height are closed
   std::string like = "male_p50";   ///< the manikin whose limits of joints and shares of mass it takes
   std::optional<double> mass_kg;   ///< otherwise that of its volume at 1,000 kg/m³
-  bool folds_off = false;          ///< as CharacterOptions
+  double bridge_folds_m = 0;       ///< as CharacterOptions
 };
 
 /// A girth of the scan as it lies in the file, and of the skin made of it in the standing posture [m].

@@ -67,6 +67,8 @@ std::vector<Vec3> outwardAt(const std::vector<std::array<int, 3>>& triangles, st
   return normal;
 }
 
+}  // namespace
+
 double areaOf(const std::vector<char>& which, const std::vector<std::array<int, 3>>& triangles,
               std::span<const Vec3> x) {
   double area = 0;
@@ -77,85 +79,98 @@ double areaOf(const std::vector<char>& which, const std::vector<std::array<int, 
   return area;
 }
 
-Overlap overlapAsItIs(const std::vector<std::array<int, 3>>& triangles, std::span<const Vec3> x) {
-  Overlap out;
-  out.triangles.assign(triangles.size(), 0);
-  const ContactMesh mesh = contactMesh(static_cast<int>(x.size()), triangles);
-  const std::vector<Crossing> crossings = findCrossings(mesh, x);
-  if (crossings.empty()) return out;
+OverlapSearch::OverlapSearch(std::vector<std::array<int, 3>> triangles, int vertices)
+    : triangles_(std::move(triangles)), mesh_(contactMesh(vertices, triangles_)) {}
 
-  std::vector<std::vector<int>> neighbours(x.size());
-  for (const auto& t : triangles)
-    for (std::size_t k = 0; k < 3; ++k) neighbours[t[k]].push_back(t[(k + 1) % 3]);
-  const std::vector<Vec3> normal = outwardAt(triangles, x);
+Overlap OverlapSearch::at(std::span<const Vec3> x, double room_m, std::span<const char> among) {
+  std::vector<Vec3> grown(x.begin(), x.end());
+  const std::vector<Vec3> out = outwardAt(triangles_, x);
+  if (room_m > 0)
+    for (std::size_t v = 0; v < grown.size(); ++v) grown[v] += 0.5 * room_m * out[v];
+  Overlap o;
+  o.triangles.assign(triangles_.size(), 0);
   // Hidden vertices hang together with those of edges that pass through a triangle.
-  const Winding winding(triangles, x);
-  std::vector<char> seen(x.size(), 0), hidden(x.size(), 0);
   std::vector<int> ask;
+  std::vector<char> seen(grown.size(), 0), hidden(grown.size(), 0);
   const auto push = [&](int v) {
     if (!seen[v]) seen[v] = 1, ask.push_back(v);
   };
-  for (const Crossing& c : crossings) {
-    out.triangles[c.triangle] = 1;
-    for (const int v : mesh.edges[c.edge]) push(v);
+  const auto take = [&](const ContactMesh& mesh, const std::vector<Crossing>& crossings, auto&& number) {
+    for (const Crossing& c : crossings) {
+      o.triangles[number(c.triangle)] = 1;
+      for (const int v : mesh.edges[c.edge]) push(v);
+    }
+  };
+  if (among.empty()) {
+    const std::vector<Box> boxes = triangleBoxes(mesh_, grown);
+    if (tree_.empty())
+      tree_ = BoundingTree(boxes);
+    else
+      tree_.refit(boxes);
+    take(mesh_, findCrossings(mesh_, grown, tree_), [](int t) { return t; });
+  } else {
+    std::vector<int> number;
+    std::vector<std::array<int, 3>> some;
+    for (std::size_t t = 0; t < among.size(); ++t)
+      if (among[t]) number.push_back(static_cast<int>(t)), some.push_back(triangles_[t]);
+    const ContactMesh mesh = contactMesh(mesh_.vertex_count, some);
+    take(mesh, findCrossings(mesh, grown), [&](int t) { return number[t]; });
   }
+  if (ask.empty()) return o;
+  // Normals of what has grown: they say where its outside is.
+  const std::vector<Vec3> normal = room_m > 0 ? outwardAt(triangles_, grown) : out;
+  const Winding winding(triangles_, grown);
   while (!ask.empty()) {
     const int v = ask.back();
     ask.pop_back();
-    if (normal[v] == Vec3{} || winding(x[v] + kOff_m * normal[v]) <= 0) continue;
+    if (normal[v] == Vec3{} || winding(grown[v] + kOff_m * normal[v]) <= 0) continue;
     hidden[v] = 1;
-    for (const int w : neighbours[v]) push(w);
+    for (const int e : mesh_.vertex_edges[v])
+      for (const int w : mesh_.edges[e]) push(w);
   }
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto [a, b, c] = triangles[t];
-    if (hidden[a] && hidden[b] && hidden[c]) out.triangles[t] = 1;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto [a, b, c] = triangles_[t];
+    if (hidden[a] && hidden[b] && hidden[c]) o.triangles[t] = 1;
   }
-  out.area_m2 = areaOf(out.triangles, triangles, x);
-  return out;
-}
-
-}  // namespace
-
-Overlap overlapOf(const std::vector<std::array<int, 3>>& triangles, std::span<const Vec3> x, double room_m) {
-  if (!(room_m > 0)) return overlapAsItIs(triangles, x);
-  std::vector<Vec3> grown(x.begin(), x.end());
-  const std::vector<Vec3> out = outwardAt(triangles, x);
-  for (std::size_t v = 0; v < grown.size(); ++v) grown[v] += 0.5 * room_m * out[v];
-  Overlap o = overlapAsItIs(triangles, grown);
-  o.area_m2 = areaOf(o.triangles, triangles, x);
+  o.area_m2 = areaOf(o.triangles, triangles_, x);
   return o;
 }
 
-OverlapOfMotion overlapOf(const Human& human, const Motion& motion, double step_s, double room_m) {
+Overlap overlapOf(const std::vector<std::array<int, 3>>& triangles, std::span<const Vec3> x, double room_m) {
+  return OverlapSearch(triangles, static_cast<int>(x.size())).at(x, room_m);
+}
+
+std::vector<std::string> linksOf(const std::vector<char>& triangles, const Human& human) {
+  const Skin& skin = *human.skin;
+  std::set<int> parts;
+  for (std::size_t k = 0; k < triangles.size(); ++k) {
+    const auto [a, b, c] = skin.rest.triangles[k];
+    if (triangles[k]) parts.insert({skin.segment[a], skin.segment[b], skin.segment[c]});
+  }
+  std::vector<std::string> names;
+  for (const int l : parts) names.push_back(human.skeleton.links[l].name);
+  return names;
+}
+
+OverlapOfMotion overlapOf(const Human& human, const Motion& motion, double step_s) {
   const Skin& skin = *human.skin;
   OverlapOfMotion out;
   out.triangles.assign(skin.rest.triangles.size(), 0);
-  out.tight = out.triangles;
   std::vector<Vec3> x(skin.rest.vertices.size());
+  OverlapSearch search(skin.rest.triangles, static_cast<int>(x.size()));
   out.instants = std::max(1, static_cast<int>(std::ceil(motion.duration() / step_s))) + 1;
   for (int i = 0; i < out.instants; ++i) {
     const double t = motion.duration() * i / (out.instants - 1);
     const Posture p = motion.at(t);
     skinPositions(skin, linkPoses(human.skeleton, p.q, p.root), x);
-    if (room_m > 0) {
-      const Overlap tight = overlapOf(skin.rest.triangles, x, room_m);
-      for (std::size_t k = 0; k < tight.triangles.size(); ++k) out.tight[k] |= tight.triangles[k];
-    }
-    const Overlap now = overlapOf(skin.rest.triangles, x);
+    const Overlap now = search.at(x, 0);
     if (!(now.area_m2 > 0)) continue;
     ++out.folded;
     if (now.area_m2 > out.largest_m2) out.largest_m2 = now.area_m2, out.largest_time_s = t;
     for (std::size_t k = 0; k < now.triangles.size(); ++k) out.triangles[k] |= now.triangles[k];
   }
-  std::set<int> parts;
-  for (std::size_t k = 0; k < out.triangles.size(); ++k) {
-    const auto [a, b, c] = skin.rest.triangles[k];
-    if (out.triangles[k]) parts.insert({skin.segment[a], skin.segment[b], skin.segment[c]});
-    if (out.triangles[k]) out.tight[k] = 1;
-  }
   out.area_m2 = areaOf(out.triangles, skin.rest.triangles, skin.rest.vertices);
-  out.tight_m2 = areaOf(out.tight, skin.rest.triangles, skin.rest.vertices);
-  for (const int l : parts) out.links.push_back(human.skeleton.links[l].name);
+  out.links = linksOf(out.triangles, human);
   return out;
 }
 

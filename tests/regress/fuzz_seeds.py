@@ -422,7 +422,7 @@ def kinds():
         Kind("character_buffer", "a.bin", character("a.gltf", **{"a.gltf": json.dumps(body), "a.bin": body_points}), run=True),
         Kind("character_glb", "a.glb", character("a.glb", **{"a.glb": glb(*fuzz_bodies.character_gltf(""))}), run=True),
         Kind("character_fbx", "a.fbx", character("a.fbx", **{"a.fbx": fuzz_bodies.character_fbx()}), run=True),
-        Kind("case_character", "case.json", character("a.gltf", ', "like": "male_p50", "height": 1.8, "mass": 80, "switch_off_folds": true',
+        Kind("case_character", "case.json", character("a.gltf", ', "like": "male_p50", "height": 1.8, "mass": 80, "bridge_folds": "8 mm"',
                                                       **{"a.gltf": json.dumps(body), "a.bin": body_points}), run=True),
         Kind("makehuman", "a.obj", on_makehuman, run=True),
         Kind("makehuman_bones", "a.mhskel", on_makehuman, run=True),
@@ -432,7 +432,7 @@ def kinds():
         Kind("scan_ply", "a.ply", scan("a.ply", fuzz_scans.ply(*fuzz_scans.surface())), run=True),
         Kind("scan_shape", "a.obj", scan("a.obj", scan_obj), run=True, spoil=fuzz_scans.spoilt),
         Kind("case_scan", "case.json", scan("a.obj", scan_obj, ', "height": "175 cm", "up": "y", "facing": "z", "close_holes": 0.3, "like": "male_p50", '
-                                                                '"mass": "80 kg", "switch_off_folds": true'), run=True),
+                                                                '"mass": "80 kg", "bridge_folds": "8 mm"'), run=True),
         Kind("sequence", "frames/1.obj", sequence, run=True),
         Kind("sequence_first", "frames/0.obj", sequence, run=True),
         Kind("case_sequence", "case.json", sequence, run=True),

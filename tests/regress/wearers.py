@@ -96,11 +96,11 @@ def wearers(walk):
             out[name] = {"character": character, "motion": STAND}
             # The quaternius man's thighs clear 0.26 m.
             lower = {f"{worn}_step_over": {"step_over": {"height": "0.25 m"}} for worn in ("trousers", "sleeves")}
-            out |= {f"{name}_{task}": {"character": {**character, "switch_off_folds": True}, "motion": motion}
+            out |= {f"{name}_{task}": {"character": {**character, "bridge_folds": "10 mm"}, "motion": motion}
                     for task, motion in (TROUSERS | SLEEVES | lower).items()}
             if walk:
                 out[name + "_walks"] = {"character": character, "motion": {"walk": {"strides": 1}}}
-                out[name + "_climbs"] = {"character": {**character, "switch_off_folds": True},
+                out[name + "_climbs"] = {"character": {**character, "bridge_folds": "10 mm"},
                                          "motion": {"stairs": {"strides": 1, "lead_in_strides": 0}}}
     else:
         absent += CHARACTERS
@@ -130,8 +130,10 @@ def case(name, human, program, folder):
     made["garment"] = {"shorts": {"inseam": "20 cm", "ease": "12 %" if crouches else "6 %", "cell": "26.5 mm"}, "samples_per_cell": 3}
     if crouches:  # the seat needs room, and the waist a band: it is drawn down by 6 cm else
         made["supports"] = [{"springs": {"edge": "waist", "stiffness": "8000 N/m^2", "link": "pelvis"}}]
+    # Skins of characters have cells of their own, some of 5 mm, and floors of bridged folds.
+    samples = 4 if "character" in human else 3
     if in_trousers(name):
-        made["garment"] = {"shorts": {"ease": "12 %", "waist_ease": "6 %", "cell": "35 mm"}, "samples_per_cell": 3}
+        made["garment"] = {"shorts": {"ease": "12 %", "waist_ease": "6 %", "cell": "35 mm"}, "samples_per_cell": samples}
         made["supports"] = [{"springs": {"edge": "waist", "stiffness": "8000 N/m^2", "link": "pelvis"}}]
         made["output"] = output | {"pictures": []}
         made["analysis"] = {"joints": ["hip_flexion_left", "hip_flexion_right", "knee_flexion_left",
@@ -141,7 +143,7 @@ def case(name, human, program, folder):
         made["garment"]["shorts"]["inseam"] = f"{inseam:.1f} cm"
         return made
     if in_sleeves(name):
-        made["garment"] = {"shirt": {"sleeve_ease": "15 %", "cell": "35 mm"}, "samples_per_cell": 3}
+        made["garment"] = {"shirt": {"sleeve_ease": "15 %", "cell": "35 mm"}, "samples_per_cell": samples}
         made["fabric"] = {"thickness": "0.762 mm", "density": "436 kg/m^3", "young": "200 kPa", "poisson": 0.3,
                           "bending": {"law": "linear", "rigidity": "1e-4 N m"}}
         made["supports"] = []

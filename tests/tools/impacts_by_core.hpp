@@ -57,10 +57,7 @@ class CoreImpacts {
   ImpactRowTerms terms(int round) const {
     return {step_.dt_s, -std::expm1(-step_.dt_s / step_.m.contact.relaxation_s), round};
   }
-  void addRows(int round) {
-    for (const SampleHit& hit : step_.w.hits) addImpact(step_.m, {}, hit, step_.dt_s, round, step_.w);
-    for (const PairHit& hit : step_.w.pair_hits) addImpact(step_.m, {}, hit, step_.dt_s, round, step_.w);
-  }
+  void addRows(int round) { addImpacts(step_.m, {}, step_.dt_s, round, step_.w); }
   /// Some tractions as a solve might leave them, to see which rows keep theirs.
   void bearSome() {
     for (std::size_t k = 0; k < step_.w.warm.size(); ++k)

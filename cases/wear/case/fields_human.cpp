@@ -46,9 +46,10 @@ Object characterTable() {
       .choice("like", &C::like, manikinWords(), "the manikin whose limits of joints and shares of mass it takes")
       .number("height", &C::height_m, "m", between(0.5, 3), "it is scaled to, in the pose of the file")
       .defaultsTo("as the file has it")
-      .flag("switch_off_folds", &C::folds_off,
-            "where the skin folds into itself at some time of the motion, or comes nearer to itself than 3 mm, cloth "
-            "does not touch it at all; the area is told either way")
+      .number("bridge_folds", &C::bridge_folds_m, "m", between(0, 0.05),
+              "where the skin comes nearer to itself than this in the course of the motion, or passes through itself, "
+              "its surface goes across the mouth of the fold meanwhile, so that cloth is not pinched in it: 10 mm is "
+              "room for a sleeve under an arm; 0 leaves the skin as it is")
       .number("mass", &C::mass_kg, "kg", aboveTo(0, 500), "of the whole body")
       .defaultsTo("its volume at 1000 kg/m^3")
       .build();
@@ -132,7 +133,7 @@ Object scanTable() {
           "close_holes", &S::close_holes, "", between(0, 1),
           "holes are closed whose rim is at most this share of the body's height long, or twice that where it is flat")
       .choice("like", &S::like, manikinWords(), "the manikin whose limits of joints and shares of mass it takes")
-      .flag("switch_off_folds", &S::folds_off, "as of a character")
+      .number("bridge_folds", &S::bridge_folds_m, "m", between(0, 0.05), "as of a character")
       .number("mass", &S::mass_kg, "kg", aboveTo(0, 500), "of the whole body")
       .defaultsTo("its volume at 1000 kg/m^3")
       .build();

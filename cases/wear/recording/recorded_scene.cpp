@@ -28,6 +28,7 @@ struct RecordedScene {
   std::optional<Posture> dressed;
   std::vector<Placement> shrunk;
   std::vector<Vec3> shrunk_skin;
+  BridgedFolds bridged;
   std::optional<FootReport> feet;
   std::vector<RecordedObstacle> obstacles;
   Wardrobe wardrobe;
@@ -35,11 +36,13 @@ struct RecordedScene {
 };
 template <class A, Of<RecordedScene> T>
 void fields(A& a, T& s) {
-  auto& [human, motion, velocity, ramp, dressed, shrunk, shrunk_skin, feet, obstacles, wardrobe, notes, facts] = s;
+  auto& [human, motion, velocity, ramp, dressed, shrunk, shrunk_skin, bridged, feet, obstacles, wardrobe, notes,
+         facts] = s;
   a("human", human)("motion", motion)("mean_velocity", velocity)("air_ramp", ramp)("dressed", dressed);
   a("shrunk", shrunk)("shrunk_skin", shrunk_skin)("feet", feet)("obstacles", obstacles);
   a("garments", wardrobe.drafts)("meshes", wardrobe.meshes)("notes", notes);
-  if (a.has("facts")) a("facts", facts);  // recordings from before have none
+  if (a.has("facts")) a("facts", facts);               // recordings from before have none
+  if (a.has("bridged.vertex")) a("bridged", bridged);  // likewise
 }
 
 std::map<std::string, Values> sceneOf(const Scenario& s) {
@@ -52,6 +55,7 @@ std::map<std::string, Values> sceneOf(const Scenario& s) {
   scene.dressed = stage.dressed;
   scene.shrunk = stage.shrunk;
   scene.shrunk_skin = stage.shrunk_skin;
+  scene.bridged = stage.bridged;
   scene.feet = s.feet;
   for (std::size_t k = 0; k < stage.own.count(); ++k) {
     RecordedObstacle& o = scene.obstacles.emplace_back();
@@ -90,6 +94,7 @@ std::unique_ptr<Scenario> scenarioOf(const Case& c, const std::map<std::string, 
   s->stage->dressed = std::move(scene.dressed);
   s->stage->shrunk = std::move(scene.shrunk);
   s->stage->shrunk_skin = std::move(scene.shrunk_skin);
+  s->stage->bridged = std::move(scene.bridged);
   return s;
 }
 

@@ -4,6 +4,7 @@
 
 #include "cases/wear/recording/archive.hpp"
 #include "cases/wear/recording/recorded_motion.hpp"
+#include "human/body/bridged_folds.hpp"
 #include "human/body/mesh_sequence.hpp"
 #include "human/body/skin.hpp"
 
@@ -89,6 +90,11 @@ template <class A, Of<Human> T>
 void fields(A& a, T& h) {
   auto& [skeleton, shapes, mass, stature, skin] = h;
   a("skeleton", skeleton)("shapes", shapes)("mass", mass)("stature", stature)("skin", skin);
+}
+template <class A, Of<BridgedFolds> T>
+void fields(A& a, T& b) {
+  auto& [begin, every, vertex, way] = b;
+  a("begin", begin)("every", every)("vertex", vertex)("way", way);
 }
 template <class A, Of<Posture> T>
 void fields(A& a, T& p) {

@@ -135,16 +135,21 @@ std::vector<double> SkinLedger::row(double middle_s) const {
     if (received_[v] != Vec3{}) touched.push_back(static_cast<int>(v));
   if (touched.empty()) return std::vector<double>(kPerJoint * joints_.size(), 0.0);
   const Human& human = *scenario_.human;
-  const Posture posture = scenario_.motion->at(std::max(middle_s, 0.0));
+  const double at_s = std::max(middle_s, 0.0);
+  const Posture posture = scenario_.motion->at(at_s);
   const std::vector<Pose> X_WL = linkPoses(human.skeleton, posture.q, posture.root);
   std::vector<Vec3> x(received_.size()), more(x.size()), less(x.size());
-  skinPositions(skin_, X_WL, x);
+  const auto place = [&](const std::vector<Pose>& poses, std::vector<Vec3>& to) {
+    skinPositions(skin_, poses, to);
+    bridge(scenario_.stage->bridged, skin_, poses, at_s, to);
+  };
+  place(X_WL, x);
   for (const JointFacts& f : joints_) {
     const Joint& joint = human.skeleton.joints[static_cast<std::size_t>(f.joint)];
     const auto moved = [&](double by, std::vector<Vec3>& to) {
       std::vector<double> q = posture.q;
       q[static_cast<std::size_t>(f.joint)] += by;
-      skinPositions(skin_, linkPoses(human.skeleton, q, posture.root), to);
+      place(linkPoses(human.skeleton, q, posture.root), to);
     };
     moved(kDifference, more);
     moved(-kDifference, less);

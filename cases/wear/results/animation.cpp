@@ -129,7 +129,8 @@ class Maker {
       const std::span<const Vec3> x = all[o];
       return std::vector<Vec3>(x.begin(), x.end());
     };
-    const bool linear = body < 0 && s_.human->skin->bends.empty() && times()[0] > -rounding;
+    const bool linear =
+        body < 0 && s_.human->skin->bends.empty() && s_.stage->bridged.empty() && times()[0] > -rounding;
     if (linear && o_.skins) {
       const SkinnedMesh skin = skinnedOf(*s_.human->skin, triangles);
       for (std::size_t f = 0; f < times().size(); ++f) {

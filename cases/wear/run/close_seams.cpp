@@ -151,12 +151,14 @@ std::unique_ptr<Scenario> standingPanels(const Case& one, const Case& whole, std
   if (one.garments[0].cloth.kind == ClothKind::triangles) evenMasses(m);
   for (std::size_t i = 0; i < m.mass_kg.size(); ++i) m.drag_kg_per_s[i] = closing_drag_per_s * m.mass_kg[i];
   const double move_s = whole.dressing.settle_s;
-  if (!s->human || !(move_s > 0)) return s;
-  const Posture placed = puttingOnPosture(whole, one.garments[0], *s->human);
-  if (areSame(placed, s->motion->at(0))) return s;
-  s->stage->dressed = placed;
-  s->stage->settle_start_s = -move_s;
-  s->start_s = s->stage->grow_start_s = -(close_s + move_s);
+  if (!s->human) return s;
+  if (const Posture placed = puttingOnPosture(whole, one.garments[0], *s->human);
+      move_s > 0 && !areSame(placed, s->motion->at(0))) {
+    s->stage->dressed = placed;
+    s->stage->settle_start_s = -move_s;
+    s->start_s = s->stage->grow_start_s = -(close_s + move_s);
+  }
+  bridgeSkin(*s, 0);
   return s;
 }
 

@@ -7,7 +7,9 @@
 #include "cases/input/wrong_entry.hpp"
 #include "cases/wear/case/human.hpp"
 #include "cases/wear/case/motions/kind.hpp"
+#include "human/body/skin.hpp"
 #include "human/motion/foot_ground.hpp"
+#include "human/skin/bridge_folds.hpp"
 #include "human/skin/make_skin.hpp"
 #include "human/skin/overlap.hpp"
 
@@ -17,30 +19,29 @@ namespace {
 /// Feet of our own motions slip and sink by a centimetre or two at most.
 bool plausible(const FootReport& f) { return f.slip_m < 0.05 && f.penetration_m < 0.02 && f.hover_m < 0.02; }
 
-/// Says where the skin passes through itself, and switches it off there where asked. Our own motions keep our own skins
-/// from it (tests/unit/human/skin/fold_test.cpp).
+/// Says where the skin passes through itself. Our own motions keep our own skins from it
+/// (tests/unit/human/skin/fold_test.cpp). Where its folds are bridged, what of it lies inside as a whole is switched
+/// off, an eye say.
 void noteFolds(const HumanCase& human, MadeBodies& s) {
-  // Joints turn by up to 400 degrees a second, and back within a tenth: between instants of 20 ms a fold closes by 0.3
-  // degrees more than it is seen to, well within the room; between those of 50 ms by 2, which is 4 mm at a knee.
+  if (const double room_m = bridgedFolds_m(human); room_m > 0) {
+    Skin skin = *s.human->skin;
+    std::vector<Vec3> x(skin.rest.vertices.size());
+    const Posture first = s.motion->at(0);
+    skinPositions(skin, linkPoses(s.human->skeleton, first.q, first.root), x);
+    skin.off = wholeParts(skin.rest, overlapOf(skin.rest.triangles, x, room_m).triangles);
+    s.human->skin = std::make_shared<const Skin>(std::move(skin));
+    return;
+  }
   constexpr double every_s = 0.02;
-  const bool off = (human.character && human.character->folds_off) || (human.scan && human.scan->folds_off);
-  const OverlapOfMotion o = overlapOf(*s.human, *s.motion, every_s, off ? SkinOptions{}.crease_gap_m : 0);
+  const OverlapOfMotion o = overlapOf(*s.human, *s.motion, every_s);
   if (o.folded == 0) return;
   std::string note = fmt::format(
       "the skin passes through itself at {} of {} instants of the motion, with at most {:.1f} cm^2 (at {:.2f} s), at "
       "{}",
       o.folded, o.instants, 1e4 * o.largest_m2, o.largest_time_s, fmt::join(o.links, ", "));
-  if (off) {
-    Skin skin = *s.human->skin;
-    skin.off = o.tight;
-    s.human->skin = std::make_shared<const Skin>(std::move(skin));
-    note += fmt::format(
-        "; {:.1f} cm^2 are switched off, {:.1f} of them since they come nearer to other skin than {:.3g} mm",
-        1e4 * o.tight_m2, 1e4 * (o.tight_m2 - o.area_m2), 1e3 * SkinOptions{}.crease_gap_m);
-  } else {
-    if (human.character || human.scan) note += "; cloth is pinched there, and \"switch_off_folds\" leaves it free";
-    if (kindOf(human).holds_apart) note += "; hips_apart and arms_apart hold the limbs apart";
-  }
+  if (human.character || human.scan)
+    note += "; cloth is pinched there, and \"bridge_folds\": \"10 mm\" keeps it out of folds";
+  if (kindOf(human).holds_apart) note += "; hips_apart and arms_apart hold the limbs apart";
   s.notes.push_back(note);
 }
 
@@ -92,6 +93,11 @@ void placeObstacles(const Case& c, std::vector<MadeObstacle> made, Scenario& s, 
 }
 
 }  // namespace
+
+double bridgedFolds_m(const HumanCase& human) {
+  if (human.character) return human.character->bridge_folds_m;
+  return human.scan ? human.scan->bridge_folds_m : 0;
+}
 
 MadeBodies makeBodies(const Case& c) {
   MadeBodies made;

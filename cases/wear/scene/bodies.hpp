@@ -27,6 +27,9 @@ struct MadeBodies {
 /// Throws InputError with the case's keys.
 MadeBodies makeBodies(const Case& c);
 
+/// Up to which width folds of the human's skin are bridged (human/skin/bridge_folds.hpp) [m]; 0: none.
+double bridgedFolds_m(const HumanCase& human);
+
 /// Puts the bodies into the scenario and on its stage, with the air about them; returns the obstacles, those of the
 /// human first.
 std::vector<Obstacle> placeBodies(const Case& c, MadeBodies made, Scenario& s, CaseStage& stage);

@@ -81,6 +81,10 @@ struct Scenario {
 /// What a foot report says, as a sentence without its full stop.
 std::string feetText(const FootReport& feet);
 
+/// Bridges the folds of the human's skin through settling and the motion up to until_s, where the case asks for it, and
+/// says so in the notes (human/skin/bridge_folds.hpp). To be called again where the stage is given other postures.
+void bridgeSkin(Scenario& s, double until_s);
+
 /// What a run starts from: the rest shapes, or where garments are placed, with their noise, or where they were put on.
 /// Springs are anchored where they are drafted.
 State startOf(const Scenario& scenario, StepWork& work);

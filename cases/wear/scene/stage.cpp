@@ -44,14 +44,17 @@ Posture CaseStage::postureAt(double t) const {
 void CaseStage::vertices(int obstacle, double t, std::span<Vec3> x) const {
   if (obstacle >= first_own) return own.vertices(obstacle - first_own, t, x);
   const Posture posture = postureAt(t);
-  skinPositions(*human->skin, linkPoses(human->skeleton, posture.q, posture.root), x);
+  const std::vector<Pose> poses = linkPoses(human->skeleton, posture.q, posture.root);
+  skinPositions(*human->skin, poses, x);
+  bridge(bridged, *human->skin, poses, t, x);
   if (shrunk_skin.empty() || !(t < grow_start_s + grow_s)) return;
   const double w = grownPart((t - grow_start_s) / grow_s);
   for (std::size_t v = 0; v < x.size(); ++v) x[v] = shrunk_skin[v] + w * (x[v] - shrunk_skin[v]);
 }
 
 const Skin* CaseStage::skin(int obstacle, double t, std::vector<Pose>& poses) const {
-  if (obstacle >= first_own || !human->skin || (!shrunk_skin.empty() && t < grow_start_s + grow_s)) return nullptr;
+  if (obstacle >= first_own || !human->skin || !bridged.empty() || (!shrunk_skin.empty() && t < grow_start_s + grow_s))
+    return nullptr;
   const Posture posture = postureAt(t);
   poses = linkPoses(human->skeleton, posture.q, posture.root);
   return &*human->skin;

@@ -9,6 +9,7 @@
 #include "cases/contact/stage.hpp"
 #include "core/motion/model.hpp"
 #include "human/body/body.hpp"
+#include "human/body/bridged_folds.hpp"
 #include "human/motion/motion.hpp"
 
 namespace gambeson {
@@ -21,6 +22,7 @@ class CaseStage : public Stage {
   std::vector<Placement> shrunk;  ///< of the human's shapes, empty without projecting
   std::vector<Vec3> shrunk_skin;  ///< of the human's skin, the same
   double grow_start_s = 0, grow_s = 0;
+  BridgedFolds bridged;                     ///< of the human's skin
   std::vector<int> feet;                    ///< of the human's shapes, those that are left out until feet_back_s
   double feet_back_s = 0, feet_grow_s = 0;  ///< from then on they grow to their size
   std::optional<Posture> dressed;           ///< posture that the garments are put on in, left from settle_start_s on

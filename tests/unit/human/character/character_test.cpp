@@ -131,9 +131,9 @@ TEST(Character, IsScaledTurnedAndPutOnTheGround) {
   EXPECT_GT(toes.x, 0.09);
 }
 
-/// A coarse skin bound in a T-pose folds where the arms hang down; what does so at any instant is not touched at all,
+/// A coarse skin bound in a T-pose folds where the arms hang down; what is switched off is not touched at all,
 /// the rest is as it was.
-TEST(Character, WhatFoldsCanBeSwitchedOff) {
+TEST(Character, WhatIsSwitchedOffIsNotTouched) {
   const Folder folder;
   Human h = loaded(folder, body(true));
   const auto walk = makeWalk(h, {});

@@ -34,6 +34,7 @@ std::unique_ptr<Scenario> rigidlySkinned(Counting counting, const Human& human, 
   rigid.weight.assign(rigid.link.size(), 1);
   s->human->skin = std::make_shared<const Skin>(std::move(rigid));
   s->motion = makeWalk(*s->human, {});
+  s->stage = std::make_unique<CaseStage>();
   s->definition.analysis.counting = counting;
   return s;
 }
@@ -103,11 +104,15 @@ TEST_F(OnASkin, ARigidSkinHasTheTorquesOfItsSegments) {
   }
 }
 
-/// Virtual work: turning a joint a little does the work tau dq on the forces, however the skin bends.
+/// Virtual work: turning a joint a little does the work tau dq on the forces, however the skin bends, and where folds
+/// are bridged too.
 TEST_F(OnASkin, TheGeneralisedForceIsTheWorkOfTheForces) {
   auto s = rigidlySkinned(Counting::all_distal, *human_, *skin_);
   s->human->skin = std::make_shared<const Skin>(*skin_);
   constexpr double middle = 0.9, turn = 1e-3;
+  BridgedFolds& folds = s->stage->bridged;
+  for (int v = 0; v < static_cast<int>(skin_->rest.vertices.size()); v += 2) folds.vertex.push_back(v);
+  folds.way.assign(1, std::vector<Vec3>(folds.vertex.size(), {0.03, -0.02, 0.05}));
   SkinLedger ledger(*s);
   std::mt19937 rng(5);
   std::normal_distribution<double> normal;
@@ -127,7 +132,9 @@ TEST_F(OnASkin, TheGeneralisedForceIsTheWorkOfTheForces) {
       std::vector<double> q = posture.q;
       q[static_cast<std::size_t>(joints[j])] += by;
       std::vector<Vec3> x(force.size());
-      skinPositions(*skin_, linkPoses(s->human->skeleton, q, posture.root), x);
+      const std::vector<Pose> X_WL = linkPoses(s->human->skeleton, q, posture.root);
+      skinPositions(*skin_, X_WL, x);
+      bridge(folds, *skin_, X_WL, middle, x);
       double sum = 0;
       for (std::size_t v = 0; v < x.size(); ++v) sum += dot(force[v], x[v]);
       return sum;

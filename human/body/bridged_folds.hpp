@@ -1,0 +1,28 @@
+#pragma once
+/// A skin whose folds are bridged over a motion: where its sides come nearer to each other than cloth needs, its
+/// surface goes across the mouth of the fold instead. Made by human/skin/bridge_folds.hpp.
+
+#include <span>
+#include <vector>
+
+#include "core/math/vec.hpp"
+
+namespace gambeson {
+
+struct Skin;
+
+/// How far vertices are moved from where the skin has them, at even times: `way` of an instant by `vertex`, in the
+/// frame of the link of the vertex's segment [m].
+struct BridgedFolds {
+  double begin_s = 0, every_s = 0.02;
+  std::vector<int> vertex;
+  std::vector<std::vector<Vec3>> way;
+
+  bool empty() const { return vertex.empty(); }
+};
+
+/// Moves the vertices `x` of the skin with links at `X_WL` as at `time_s`: along the cubic through the instants with
+/// central differences as rates, C¹; before the first and after the last instant as in these.
+void bridge(const BridgedFolds& folds, const Skin& skin, std::span<const Pose> X_WL, double time_s, std::span<Vec3> x);
+
+}  // namespace gambeson
