@@ -250,7 +250,7 @@ std::string pageOf(const std::string& title, const std::string& description, con
                                  " class=\"page\"") +
                              element("main", body + element("footer",
                                                             "Made by Gambeson. This page holds everything it shows.")) +
-                             element("script", report::kScript) + (viewed ? viewerScripts() : "")),
+                             element("script", report::kScript)),
              " lang=\"en\"");
 }
 

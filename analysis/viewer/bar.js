@@ -21,7 +21,7 @@ const element = (name, attributes = {}, ...children) => {
 class Bar {
   constructor(colors, changed) {
     this.canvas = element('canvas', { width: 512, height: 1, 'aria-hidden': 'true' });
-    const context = this.canvas.getContext('2d'), image = context.createImageData(512, 1);
+    const context = this.canvas.getContext('2d', { willReadFrequently: true }), image = context.createImageData(512, 1);
     this.colors = colors;
     this.paint = () => {
       const { from, to, low, high } = this;

@@ -7,25 +7,34 @@ const withoutViewer = (root, why) => {
   root.replaceChildren(element('p', { class: 'notice' }, `${why} The pictures of this page show the run.`));
 };
 
+/// What of the page is read: what the first picture takes, and all.
+const pageRead = {};
+pageRead.all = new Promise(done => document.readyState === 'loading' ? document.addEventListener('DOMContentLoaded', done) : done());
+pageRead.first = new Promise(done => { window.gambesonFirst = done; pageRead.all.then(done); });
+
 const startViewer = async () => {
   const root = document.getElementById('viewer');
   if (!root) return null;
+  // While the browser makes its context the library is inflated.
+  const library = typeof DecompressionStream === 'undefined' ? null : inflated(document.getElementById('viewer-library').textContent);
   const canvas = document.createElement('canvas');
   const context = canvas.getContext('webgl', { antialias: false, alpha: true, premultipliedAlpha: true });
   if (!context)
     return withoutViewer(root, 'To look around in three dimensions takes WebGL, which this browser does not offer.');
-  if (typeof DecompressionStream === 'undefined')
+  if (!library)
     return withoutViewer(root, 'To look around in three dimensions takes a browser of 2023 or later.');
-  const library = new TextDecoder().decode(await inflated(document.getElementById('viewer-library').textContent));
-  document.head.append(element('script', {}, library));
+  document.head.append(element('script', {}, new TextDecoder().decode(await library)));
 
-  const colors = JSON.parse(document.getElementById('viewer-colors').textContent), runs = [];
-  for (const script of document.querySelectorAll('script.viewer-run')) {
-    const blocks = [];
-    for (let next = script.nextElementSibling; next && next.classList.contains('viewer-block'); next = next.nextElementSibling)
-      blocks.push(next.textContent);
-    runs.push(await new Run(JSON.parse(script.textContent), blocks).load());
-  }
+  const colors = JSON.parse(document.getElementById('viewer-colors').textContent);
+  await pageRead.first;
+  const runs = [...document.querySelectorAll('script.viewer-run')].map((script, k) => new Run(JSON.parse(script.textContent), k));
+  for (const run of runs) await run.loadFirst();
+  const loadRest = async () => {
+    await pageRead.all;
+    for (const run of runs) await run.loadRest();
+  };
+  // Runs beside each other are shown at one moment, and each has the start of its own.
+  if (runs.length > 1) await loadRest();
   root.closest('section').hidden = false;
   const viewer = new Viewer(root, canvas, context, runs, colors), start = runs[0].head.start;
   const named = start.field && runs[0].fieldHead(start.field) ? start.field : (runs[0].head.fields[0] || { name: '' }).name;
@@ -37,10 +46,13 @@ const startViewer = async () => {
   if (named) await viewer.setField(named); else viewer.offerRange();
   viewer.stage.drawNow();
   viewer.firstPicture_ms = performance.now();
+  if (runs.length === 1) await loadRest();
+  viewer.complete();
+  if (named) await viewer.setField(named); else viewer.refresh();
   return viewer;
 };
 
-/// For scripts and tests: a promise of the viewer, null where there is none.
+/// For scripts and tests: a promise of the viewer with all frames, null where there is none.
 window.gambesonViewer = startViewer();
 window.gambesonViewer.catch(error => {
   console.error(error);

@@ -57,8 +57,8 @@ const kPlainFragment = `
   void main() { gl_FragColor = color; }`;
 
 /// `shared`: uniforms that all materials of the page have in common.
-const surfaceMaterial = (color, back_m, shared) => new THREE.RawShaderMaterial({
-  vertexShader: kVertex, fragmentShader: kFragment, side: THREE.DoubleSide,
+const surfaceMaterial = (color, back_m, shared, side = THREE.DoubleSide) => new THREE.RawShaderMaterial({
+  vertexShader: kVertex, fragmentShader: kFragment, side,
   uniforms: { ...shared, plain: { value: new THREE.Vector3(...color) }, back_m: { value: back_m }, coloured: { value: 0 }, bare: { value: 0 } },
 });
 

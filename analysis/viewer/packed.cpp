@@ -19,7 +19,12 @@ std::vector<int> parentsOf(std::size_t vertices, std::span<const std::array<int,
   return parents;
 }
 
-std::string packed(const Codes& codes, std::span<const int> parents) {
+Codes Codes::frame(std::size_t number) const {
+  const auto begin = of.begin() + static_cast<std::ptrdiff_t>(number * vertices * components);
+  return {1, vertices, components, {begin, begin + static_cast<std::ptrdiff_t>(vertices * components)}};
+}
+
+std::string coded(const Codes& codes, std::span<const int> parents) {
   const std::size_t count = codes.frames * codes.vertices * codes.components;
   std::string bytes(2 * count, '\0');
   std::vector<std::uint16_t> change(codes.vertices);
@@ -39,8 +44,10 @@ std::string packed(const Codes& codes, std::span<const int> parents) {
         bytes[at] = static_cast<char>(z & 0xff);
         bytes[count + at] = static_cast<char>(z >> 8);
       }
-  return deflated(bytes);
+  return bytes;
 }
+
+std::string packed(const Codes& codes, std::span<const int> parents) { return deflated(coded(codes, parents)); }
 
 std::string deflated(std::string_view bytes) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));

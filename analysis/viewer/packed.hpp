@@ -21,12 +21,16 @@ namespace gambeson {
 struct Codes {
   std::size_t frames = 0, vertices = 0, components = 1;
   std::vector<std::int16_t> of;  ///< of[(frame * vertices + vertex) * components + component]
+
+  /// One frame alone.
+  Codes frame(std::size_t number) const;
 };
 
 /// Of each vertex the largest number below its own among those that it shares a triangle with; -1 where there is none.
 std::vector<int> parentsOf(std::size_t vertices, std::span<const std::array<int, 3>> triangles);
 
-/// Deflated bytes of the codes.
+/// Bytes of the codes, and these deflated.
+std::string coded(const Codes& codes, std::span<const int> parents);
 std::string packed(const Codes& codes, std::span<const int> parents);
 
 /// RFC 1950. Throws RunError where there is no memory.

@@ -15,8 +15,23 @@ class Viewer {
     this.time = this.clock[0];
     this.build(colors);
     this.stage = new Stage(canvas, context, runs, colors);
-    this.plots = new Plots((time, svg) => this.pickMoment(time, svg));
     this.listen();
+    this.setReady(false);
+  }
+
+  /// Not before all frames have come it plays, and has other moments and fields.
+  setReady(ready) {
+    this.ready = ready;
+    for (const e of [this.play, this.slider, this.speed, this.peak, this.choice]) e.disabled = !ready;
+  }
+
+  /// All frames have come, and all of the page is read.
+  complete() {
+    this.plots = new Plots((time, svg) => this.pickMoment(time, svg));
+    for (const actor of this.stage.actors) actor.complete();
+    if (this.runs.some(run => run.arrows)) this.toggle('forces', 'Contact forces', [0.80, 0.08, 0.10], true);
+    this.setReady(true);
+    this.label();
   }
 
   build(colors) {
@@ -37,8 +52,8 @@ class Viewer {
       ...[[0.1, '1/10 speed'], [0.25, '1/4 speed'], [0.5, '1/2 speed'], [1, 'Real speed']].map(([v, text]) => element('option', { value: String(v) }, text)));
     this.speed.value = '1';
     const start = this.runs[0].head.start;
-    const peak = button('Peak', () => { this.setPlaying(false); this.setTime(start.time_s); }, { class: 'quiet', title: 'To the moment of the peak' });
-    const transport = element('div', { class: 'transport' }, this.play, this.slider, this.now, peak, this.speed);
+    this.peak = button('Peak', () => { this.setPlaying(false); this.setTime(start.time_s); }, { class: 'quiet', title: 'To the moment of the peak' });
+    const transport = element('div', { class: 'transport' }, this.play, this.slider, this.now, this.peak, this.speed);
 
     this.choice = element('select', { 'aria-label': 'Colours show', onchange: event => this.setField(event.target.value) });
     this.choice.append(element('option', { value: '' }, 'Plain'));
@@ -50,7 +65,7 @@ class Viewer {
     this.views = element('div', { class: 'buttons', role: 'group', 'aria-label': 'View' },
       ...kShownViews.map(([name, text]) => button(text, () => this.setView(name), { 'data-view': name })));
     this.layers = element('div', { class: 'buttons layers', role: 'group', 'aria-label': 'What is shown' });
-    const toggle = (key, text, color, on) => {
+    const toggle = this.toggle = (key, text, color, on) => {
       const dot = color ? element('span', { class: 'dot' }) : '';
       if (color) dot.style.background = `rgb(${color.map(c => Math.round(255 * c)).join(' ')})`;
       this.layers.append(button('', event => this.setLayer(key, event.currentTarget.getAttribute('aria-pressed') !== 'true'),
@@ -62,7 +77,6 @@ class Viewer {
     for (const m of meshes)
       if (m.kind === 'cloth' && !seen.has(m.name)) { seen.add(m.name); toggle(m.name, capital(m.name), m.color, true); }
     if (meshes.some(m => m.kind === 'thing')) toggle('thing', 'Around', [0.70, 0.72, 0.75], true);
-    if (this.runs.some(run => run.arrows)) toggle('forces', 'Contact forces', [0.80, 0.08, 0.10], true);
     const tools = element('div', { class: 'tools' },
       element('div', { class: 'colours' }, this.choice, this.bar.root), element('div', { class: 'choices' }, this.views, this.layers));
     this.way = element('a', { class: 'viewer-way', href: '#look', hidden: true, onclick: () => { this.way.hidden = true; } });
@@ -76,6 +90,7 @@ class Viewer {
       down = [event.clientX, event.clientY];
       if (event.pointerType === 'touch') this.stage.controls.enableZoom = true;
       this.stage.trip = (this.stage.trip || 0) + 1;
+      this.stage.travels = false;
     });
     this.canvas.addEventListener('pointerup', event => {
       if (!down || event.button !== 0 || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 4) return;
@@ -131,8 +146,8 @@ class Viewer {
   }
 
   setPlaying(on) {
-    if (this.state.playing === on) return;
-    this.state.playing = on;
+    if (this.state.playing === on || !this.ready) return;
+    this.state.playing = this.stage.playing = on;
     this.reading.setAttribute('aria-live', on ? 'off' : 'polite');
     this.play.classList.toggle('on', on);
     this.play.setAttribute('aria-label', on ? 'Pause' : 'Play');
@@ -161,7 +176,7 @@ class Viewer {
     this.slider.value = k;
     this.slider.setAttribute('aria-valuetext', `${this.time.toFixed(2)} s`);
     this.now.textContent = `${this.time.toFixed(2)} s`;
-    this.plots.show(this.time);
+    if (this.plots) this.plots.show(this.time);
     this.read();
     if (at_once) this.stage.drawNow(); else this.stage.draw();
   }

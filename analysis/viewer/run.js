@@ -3,40 +3,64 @@
 const kNoValue = -32768, kNone = -1e30;
 
 class Run {
-  /// `head`: its JSON object; `blocks`: the texts that it names.
-  constructor(head, blocks) {
+  /// `head`: its JSON object; `number`: which run of the page it is. Its blocks are looked up when they are needed.
+  constructor(head, number) {
     this.head = head;
-    this.blocks = blocks;
+    this.number = number;
     this.times = head.times_s;
     this.fields = new Map();
+    this.whole = false;
   }
 
-  async load() {
+  bytesOf(selector) { return inflated(document.querySelector(`script.${selector}[data-run="${this.number}"]`).textContent); }
+  block(n) { return this.bytesOf(`viewer-block[data-block="${n}"]`); }
+
+  /// What the first picture takes: of all that changes the start's frame alone.
+  async loadFirst() {
     const first = { cloth: 0, body: 0, thing: 0 };
+    // In one piece: whoever waits for many lets the browser read the rest of the page in between.
+    const bytes = await this.bytesOf('viewer-first');
+    this.first = ([begin, length]) => bytes.slice(begin, begin + length);
     this.meshes = [];
     for (const m of this.head.meshes) {
-      const corners = cornersOf(await inflated(this.blocks[m.triangles]));
-      const mesh = { ...m, corners, parents: parentsOf(m.vertices, corners), first: first[m.kind], places: null,
+      const corners = cornersOf(this.first(m.triangles));
+      const mesh = { ...m, corners, parents: parentsOf(m.vertices, corners), first: first[m.kind], places: null, base: 0,
                      x: new Float32Array(3 * m.vertices), n: new Float32Array(3 * m.vertices),
                      values: new Float32Array(m.vertices).fill(kNone), parts_of: null };
       first[m.kind] += m.vertices;
       if (m.moving !== undefined) {
-        mesh.codes = unpacked(await inflated(this.blocks[m.moving]), this.times.length, m.vertices, 3, mesh.parents);
+        mesh.codes = unpacked(this.first(m.start), 1, m.vertices, 3, mesh.parents);
+        mesh.base = this.head.start.frame;
       } else {
-        mesh.x.set(new Float32Array(await inflated(this.blocks[m.fixed])));
-        mesh.places = new Float32Array(await inflated(this.blocks[m.placed]));
+        mesh.x.set(new Float32Array(this.first(m.fixed)));
+        mesh.places = new Float32Array(this.first(m.placed));
         setNormals(mesh.x, corners, mesh.n);
       }
-      if (m.part !== undefined) mesh.parts_of = new Uint16Array(await inflated(this.blocks[m.part]));
       this.meshes.push(mesh);
-    }
-    const arrows = this.head.arrows;
-    if (arrows) {
-      this.arrows = { ...arrows, data: new Float32Array(await inflated(this.blocks[arrows.block])), begin: [0] };
-      for (const n of arrows.counts) this.arrows.begin.push(this.arrows.begin[this.arrows.begin.length - 1] + n);
     }
     return this;
   }
+
+  /// All frames.
+  async loadRest() {
+    for (const mesh of this.meshes) {
+      if (mesh.codes) {
+        const codes = unpacked(await this.block(mesh.moving), this.times.length, mesh.vertices, 3, mesh.parents);
+        Object.assign(mesh, { codes, base: 0 });
+      }
+      if (mesh.part !== undefined) mesh.parts_of = new Uint16Array(await this.block(mesh.part));
+    }
+    const arrows = this.head.arrows;
+    if (arrows) {
+      this.arrows = { ...arrows, data: new Float32Array(await this.block(arrows.block)), begin: [0] };
+      for (const n of arrows.counts) this.arrows.begin.push(this.arrows.begin[this.arrows.begin.length - 1] + n);
+    }
+    this.fields.clear();
+    this.whole = true;
+  }
+
+  /// Frames whose places are known.
+  frames() { return this.whole ? this.times.map((_, k) => k) : [this.head.start.frame]; }
 
   meshesOf(kind) { return this.meshes.filter(m => m.kind === kind); }
   fieldHead(name) { return this.head.fields.find(f => f.name === name); }
@@ -48,14 +72,17 @@ class Run {
     if (!this.fields.has(name)) {
       const parents = [];
       for (const m of this.meshesOf(head.on)) for (const p of m.parents) parents.push(p < 0 ? -1 : m.first + p);
-      const codes = unpacked(await inflated(this.blocks[head.block]), head.frames, parents.length, 1, parents);
-      this.fields.set(name, { ...head, codes, vertices: parents.length });
+      const whole = this.whole, frames = whole ? head.frames : 1;
+      if (!whole && head.start === undefined) return null;
+      const codes = unpacked(whole ? await this.block(head.block) : this.first(head.start), frames, parents.length, 1, parents);
+      this.fields.set(name, { ...head, frames, codes, vertices: parents.length });
     }
     return this.fields.get(name);
   }
 
   /// The frame at or before a time, and how far it is to the next (0 .. 1).
   at(time) {
+    if (!this.whole) return { frame: this.head.start.frame, part: 0 };
     const t = this.times;
     if (!(time > t[0])) return { frame: 0, part: 0 };
     let low = 0, high = t.length - 1;
@@ -79,7 +106,7 @@ class Run {
 
   /// Vertices that move one by one, about the origin.
   place(mesh, { frame, part }) {
-    const n = 3 * mesh.vertices, q = mesh.quantum_m, a = frame * n, b = part > 0 ? a + n : a, codes = mesh.codes, x = mesh.x;
+    const n = 3 * mesh.vertices, q = mesh.quantum_m, a = (frame - mesh.base) * n, b = part > 0 ? a + n : a, codes = mesh.codes, x = mesh.x;
     for (let i = 0; i < n; ++i) x[i] = q * (codes[a + i] + part * (codes[b + i] - codes[a + i]));
     setNormals(x, mesh.corners, mesh.n);
   }
@@ -139,7 +166,7 @@ class Run {
   position(mesh, vertex, frame) {
     const o = this.head.origin_m[frame];
     if (mesh.codes) {
-      const i = 3 * (frame * mesh.vertices + vertex);
+      const i = 3 * ((frame - mesh.base) * mesh.vertices + vertex);
       return [0, 1, 2].map(c => o[c] + mesh.quantum_m * mesh.codes[i + c]);
     }
     const r = this.placed(mesh, { frame, part: 0 }), x = mesh.x, v = 3 * vertex;

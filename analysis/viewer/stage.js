@@ -29,7 +29,8 @@ class Actor {
       attribute('position', mesh.x, 3);
       attribute('normal', mesh.n, 3);
       attribute('value', mesh.values, 1);
-      mesh.object = new THREE.Mesh(geometry, surfaceMaterial(color, back_m, shared));
+      // Of closed bodies nobody sees the inside, and browsers without a graphics card draw them in two thirds of the time.
+      mesh.object = new THREE.Mesh(geometry, surfaceMaterial(color, back_m, shared, mesh.kind === 'body' ? THREE.FrontSide : THREE.DoubleSide));
       mesh.object.frustumCulled = false;
       mesh.object.matrixAutoUpdate = false;
       this.root.add(mesh.object);
@@ -42,18 +43,28 @@ class Actor {
       mesh.border.frustumCulled = false;
       this.root.add(mesh.border);
     }
-    if (run.arrows) {
-      this.arrows = new Arrows(run.arrows, shared);
-      this.root.add(this.arrows.object);
-    }
+    this.shared = shared;
     this.ground = new Ground();
     this.scene.add(this.ground.object);
     this.mark = new THREE.Mesh(new THREE.SphereBufferGeometry(0.006, 16, 12), plainMaterial(0.106, 0.122, 0.153, 1, true));
     this.mark.visible = false;
     this.mark.renderOrder = 9;
     this.root.add(this.mark);
+    this.stand();
+  }
+
+  /// On the ground, as far as the motion is known.
+  stand() {
     this.height = this.lowest();
     this.ground.object.position.z = this.height - 0.002;
+  }
+
+  /// All frames have come.
+  complete() {
+    this.stand();
+    if (!this.run.arrows) return;
+    this.arrows = new Arrows(this.run.arrows, this.shared);
+    this.root.add(this.arrows.object);
   }
 
   /// In the scene's axes: z is up.
@@ -61,9 +72,9 @@ class Actor {
 
   /// The lowest point of the motion that is on or near bodies.
   lowest() {
-    const { run } = this, frames = run.times.length;
+    const { run } = this, frames = run.frames(), step = Math.max(1, Math.floor(frames.length / 8));
     let least = Infinity;
-    for (let f = 0; f < frames; f += Math.max(1, Math.floor(frames / 8)))
+    for (const f of frames.filter((_, k) => k % step === 0))
       for (const mesh of run.meshes)
         for (let v = 0; v < mesh.vertices; v += Math.max(1, Math.floor(mesh.vertices / 300))) {
           const height = this.turned(run.position(mesh, v, f)).z;
@@ -235,7 +246,8 @@ class Stage {
     this.pace(performance.now());
     this.paint(this.smooth ? this.fineRatio() : this.plainRatio());
     clearTimeout(this.rest);
-    this.rest = setTimeout(() => { if (!this.waiting) this.paint(this.fineRatio()); }, 220);
+    // Not while it plays: a browser that is slow would make its picture anew for each frame.
+    if (!this.playing) this.rest = setTimeout(() => { if (!this.waiting) this.paint(this.fineRatio()); }, 220);
   }
 
   paint(ratio) {
@@ -292,6 +304,7 @@ class Stage {
     const step = () => {
       if (trip !== this.trip) return;
       const s = quick ? 1 : Math.min(1, (performance.now() - start) / 280), ease = s * s * (3 - 2 * s);
+      this.travels = s < 1;
       this.controls.target.lerpVectors(from[0], target, ease);
       // About the target, so that a turn to the other side does not pass through the wearer.
       const a = new THREE.Spherical().setFromVector3(this.turnedUp(from[1].clone().sub(from[0])));

@@ -58,9 +58,14 @@ ViewerRun::ViewerRun(std::string title, std::string label, std::vector<double> t
   for (Vec3& o : origin_m_) o = {brief(o.x), brief(o.y), brief(o.z)};
 }
 
-int ViewerRun::block(std::string bytes) {
-  blocks_.push_back(html::base64(bytes));
+int ViewerRun::block(const std::string& deflated_bytes) {
+  blocks_.push_back(html::base64(deflated_bytes));
   return static_cast<int>(blocks_.size()) - 1;
+}
+
+ViewerRun::Piece ViewerRun::firstPiece(const std::string& bytes) {
+  first_ += bytes;
+  return {first_.size() - bytes.size(), bytes.size()};
 }
 
 void ViewerRun::addMesh(Kind kind, const std::string& name, std::size_t vertices,
@@ -76,7 +81,7 @@ void ViewerRun::addMesh(Kind kind, const std::string& name, std::size_t vertices
   mesh["kind"] = wordOf(kind);
   mesh["color"] = Json{color.r, color.g, color.b};
   mesh["vertices"] = vertices;
-  mesh["triangles"] = block(deflated(bytesOf(changes)));
+  mesh["triangles"] = firstPiece(bytesOf(changes));
   if (!parts.empty()) {
     std::vector<std::uint16_t> part;
     for (const int p : part_of_vertex) part.push_back(static_cast<std::uint16_t>(p));
@@ -92,7 +97,9 @@ void ViewerRun::addMoving(Kind kind, const MovingMesh& mesh, const std::vector<s
   if (mesh.at.size() != times_s_.size()) throw std::logic_error("a mesh that moves has not one place for each time");
   const PackedPositions p = packedPositions(mesh.at, origin_m_);
   error_m_ = std::max(error_m_, p.error_m);
-  const Json more{{"moving", block(packed(p.codes, parentsOf(p.codes.vertices, mesh.triangles)))},
+  const std::vector<int> parents = parentsOf(p.codes.vertices, mesh.triangles);
+  const Json more{{"start", firstPiece(coded(p.codes.frame(start_frame_), parents))},
+                  {"moving", block(packed(p.codes, parents))},
                   {"quantum_m", p.quantum_m}};
   addMesh(kind, mesh.name, p.codes.vertices, mesh.triangles, mesh.color, parts, part_of_vertex, more.dump());
 }
@@ -112,7 +119,7 @@ void ViewerRun::addFixed(Kind kind, const FixedMesh& mesh, const std::vector<Pla
     }
   }
   if (at.size() != times_s_.size()) throw std::logic_error("a mesh has not one place for each time");
-  const Json more{{"fixed", block(deflated(bytesOf(x)))}, {"placed", block(deflated(bytesOf(placed)))}};
+  const Json more{{"fixed", firstPiece(bytesOf(x))}, {"placed", firstPiece(bytesOf(placed))}};
   addMesh(kind, mesh.name, mesh.mesh.vertices.size(), mesh.mesh.triangles, mesh.mesh.color, parts, part_of_vertex,
           more.dump());
 }
@@ -144,19 +151,21 @@ void ViewerRun::addField(const ViewerField& field, std::span<const std::vector<f
   Json limits = Json::array();
   for (const ViewerLimit& l : field.limits)
     limits.push_back({{"mesh", l.mesh}, {"part", l.part}, {"value", l.value}, {"text", l.text}});
-  const Json json{{"name", field.name},
-                  {"title", field.title},
-                  {"unit", field.unit},
-                  {"on", wordOf(kind)},
-                  {"block", block(packed(p.codes, parents))},
-                  {"frames", values.size()},
-                  {"scale", p.scale},
-                  {"step", PackedValues::kStep},
-                  {"least", least},
-                  {"most", most},
-                  {"high", field.high > 0 ? field.high : most},
-                  {"bare", field.bare},
-                  {"limits", limits}};
+  Json json{{"name", field.name},
+            {"title", field.title},
+            {"unit", field.unit},
+            {"on", wordOf(kind)},
+            {"block", block(packed(p.codes, parents))},
+            {"frames", values.size()},
+            {"scale", p.scale},
+            {"step", PackedValues::kStep},
+            {"least", least},
+            {"most", most},
+            {"high", field.high > 0 ? field.high : most},
+            {"bare", field.bare},
+            {"limits", limits}};
+  if (field.name == start_field_)
+    json["start"] = firstPiece(coded(p.codes.frame(values.size() > 1 ? start_frame_ : 0), parents));
   fields_.push_back(json.dump());
 }
 
@@ -181,10 +190,22 @@ void ViewerRun::addArrows(std::span<const std::vector<ViewerArrow>> of_frames, d
 }
 
 void ViewerRun::startAt(double time_s, const std::string& field, const std::string& view) {
-  start_ = Json{{"time_s", time_s}, {"field", field}, {"view", view}}.dump();
+  if (!meshes_.empty()) throw std::logic_error("a run to be viewed starts before it has meshes");
+  start_field_ = field, start_view_ = view;
+  for (std::size_t t = 0; t < times_s_.size(); ++t)
+    if (std::abs(times_s_[t] - time_s) < std::abs(times_s_[start_frame_] - time_s)) start_frame_ = t;
 }
 
-std::string ViewerRun::html() const {
+std::string ViewerRun::restHtml(std::size_t number) const {
+  std::string out;
+  for (std::size_t k = 0; k < blocks_.size(); ++k)
+    out += element(
+        "script", blocks_[k],
+        fmt::format(" type=\"text/plain\" class=\"viewer-block\" data-run=\"{}\" data-block=\"{}\"", number, k));
+  return out;
+}
+
+std::string ViewerRun::firstHtml(std::size_t number) const {
   Json origin = Json::array();
   for (const Vec3& o : origin_m_) origin.push_back(vec(o));
   Json times = Json::array();
@@ -198,22 +219,39 @@ std::string ViewerRun::html() const {
                  {"origin_m", origin},
                  {"up", vec(up_)},
                  {"error_mm", 1e3 * error_m_},
-                 {"start", Json::parse(start_)},
+                 {"start",
+                  {{"time_s", brief(times_s_[start_frame_])},
+                   {"frame", start_frame_},
+                   {"field", start_field_},
+                   {"view", start_view_}}},
                  {"meshes", meshes},
                  {"fields", fields},
                  {"arrows", arrows_.empty() ? Json() : Json::parse(arrows_)}};
-  std::string out = element("script", inScript(run.dump()), " type=\"application/json\" class=\"viewer-run\"");
-  for (const std::string& b : blocks_) out += element("script", b, " type=\"text/plain\" class=\"viewer-block\"");
-  return out;
+  return element("script", inScript(run.dump()), " type=\"application/json\" class=\"viewer-run\"") +
+         element("script", html::base64(deflated(first_)),
+                 fmt::format(" type=\"text/plain\" class=\"viewer-first\" data-run=\"{}\"", number));
 }
+
+namespace {
+
+std::string scripts() {
+  const viewer::Sources s = viewer::sources();
+  const std::string library = std::string(s.three) + "\n" + std::string(s.orbit);
+  return "<!-- " + std::string(s.notice) + " -->\n" +
+         element("script", html::base64(deflated(library)), " type=\"text/plain\" id=\"viewer-library\"") +
+         element("script", s.script);
+}
+
+}  // namespace
 
 std::string viewerSection(std::span<const ViewerRun> runs) {
   if (runs.empty()) return "";
   double error_m = 0;
-  std::string data;
-  for (const ViewerRun& r : runs) {
-    error_m = std::max(error_m, r.error_m());
-    data += r.html();
+  std::string first, rest;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    error_m = std::max(error_m, runs[k].error_m());
+    first += runs[k].firstHtml(k);
+    rest += runs[k].restHtml(k);
   }
   Json colors = Json::array();
   for (const Color& c : makeColorTable())
@@ -229,18 +267,11 @@ std::string viewerSection(std::span<const ViewerRun> runs) {
   return element("section",
                  element("h2", runs.size() > 1 ? "Look around, side by side" : "Look around", " id=\"look\"") +
                      element("div", "", " class=\"viewer\" id=\"viewer\"") + note +
-                     element("script", colors.dump(), " type=\"application/json\" id=\"viewer-colors\"") + data,
+                     element("script", colors.dump(), " type=\"application/json\" id=\"viewer-colors\"") + scripts() +
+                     first + element("script", "gambesonFirst();") + rest,
                  " class=\"look\" id=\"look-around\" aria-labelledby=\"look\" hidden");
 }
 
 std::string viewerStyle() { return std::string(viewer::sources().style); }
-
-std::string viewerScripts() {
-  const viewer::Sources s = viewer::sources();
-  const std::string library = std::string(s.three) + "\n" + std::string(s.orbit);
-  return "<!-- " + std::string(s.notice) + " -->\n" +
-         element("script", html::base64(deflated(library)), " type=\"text/plain\" id=\"viewer-library\"") +
-         element("script", s.script);
-}
 
 }  // namespace gambeson

@@ -13,7 +13,11 @@ import browser
 from common import HERE, SKIPPED, Folder, check, run, run_case
 
 WITHIN = 0.01
-WHERE = "const v = await gambesonViewer;"
+# `still`: when the camera has come to where it goes, however slow the browser is.
+WHERE = """const v = await gambesonViewer, still = async v => {
+    for (let k = 0; k < 3 || v.stage.travels; ++k) await new Promise(done => requestAnimationFrame(done));
+    await new Promise(done => setTimeout(done, 300));
+};"""
 
 
 def look(page, code):
@@ -93,7 +97,7 @@ def clicks_find_what_is_there(page, recorded):
     found = look(page, """
         await v.setField('stress'); v.setLayer('forces', false); v.closeUp();
         v.canvas.scrollIntoView({block: 'center'});
-        await new Promise(done => setTimeout(done, 600));
+        await still(v);
         const worst = v.found(), m = v.marked, at = v.stage.onCanvas(m.actor, m.mesh, m.vertex), box = v.canvas.getBoundingClientRect();
         v.mark(null);
         return { ...worst, at: [box.x + at[0], box.y + at[1]] };""")
@@ -116,7 +120,7 @@ def clicks_find_what_is_there(page, recorded):
 
 def layers_and_range(page):
     """What is switched off is not drawn, nor found; colours go by the range."""
-    at = look(page, "v.setView('front'); await new Promise(done => setTimeout(done, 600)); return v.runs[0].meshesOf('cloth').map(m => m.name);")
+    at = look(page, "v.setView('front'); await still(v); return v.runs[0].meshesOf('cloth').map(m => m.name);")
     button = f"document.querySelector('[data-layer=\"{at[0]}\"]')"
     box = page.evaluate(f"(() => {{ const b = {button}; b.scrollIntoView({{block: 'center'}}); const r = b.getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]; }})()")
     before = pixels(page)
@@ -203,7 +207,7 @@ def check_study(folder, tool, page_file):
             found = look(page, f"""
                 await v.setField('stress'); v.setLayer('forces', false); v.setTime(v.clock[v.clock.length - 1]); v.setView('front');
                 v.canvas.scrollIntoView({{block: 'center'}});
-                await new Promise(done => setTimeout(done, 600));
+                await still(v);
                 const [x, y, w, h] = v.stage.places()[{k}], box = v.canvas.getBoundingClientRect();
                 return {{ at: [box.x + x + w / 2, box.y + v.canvas.clientHeight - y - h / 2], time: v.runs[{k}].times.at(-1) }};""")
             page.click(*found["at"])

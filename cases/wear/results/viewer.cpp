@@ -28,7 +28,7 @@ constexpr double kGapShown_mm = 20;
 class ViewMaker {
  public:
   ViewMaker(const Scenario& s, const RecordingReader& recording, const Measured& m, const std::string& label,
-        ViewerContent content)
+            ViewerContent content)
       : s_(s),
         recording_(recording),
         m_(m),
@@ -39,10 +39,6 @@ class ViewMaker {
         run_(s.definition.name, label, scene_.time_s, origins(), up()) {}
 
   ViewerRun make() {
-    addMeshes();
-    addClothFields();
-    addBodyPressure();
-    addForces();
     const std::vector<PictureCase>& pictures = s_.definition.output.pictures;
     const auto first = std::find_if(pictures.begin(), pictures.end(), [](const PictureCase& p) {
       return p.field != PictureField::plain && p.field != PictureField::body_pressure;
@@ -51,6 +47,10 @@ class ViewMaker {
     if (field.empty()) field = "stress";
     run_.startAt(m_.peak_time_s, field,
                  first == pictures.end() ? "front_right" : viewNames()[static_cast<std::size_t>(first->view)]);
+    addMeshes();
+    addClothFields();
+    addBodyPressure();
+    addForces();
     return std::move(run_);
   }
 

@@ -51,9 +51,8 @@ std::vector<T> numbersOf(const std::string& bytes) {
 }
 
 /// p of [(frame, vertex, component)].
-inline std::vector<int> unpacked(const std::string& deflated, std::size_t frames, std::size_t vertices,
-                                 std::size_t components, const std::vector<int>& parents) {
-  const std::string bytes = inflated(deflated);
+inline std::vector<int> decoded(const std::string& bytes, std::size_t frames, std::size_t vertices,
+                                std::size_t components, const std::vector<int>& parents) {
   const std::size_t count = frames * vertices * components;
   if (bytes.size() != 2 * count) throw std::runtime_error("not as many codes as there should be");
   std::vector<int> p(count);
@@ -72,11 +71,18 @@ inline std::vector<int> unpacked(const std::string& deflated, std::size_t frames
     }
   return p;
 }
+inline std::vector<int> unpacked(const std::string& deflated, std::size_t frames, std::size_t vertices,
+                                 std::size_t components, const std::vector<int>& parents) {
+  return decoded(inflated(deflated), frames, vertices, components, parents);
+}
 
 /// The object of the first run and its blocks, still deflated.
 struct PageRun {
   nlohmann::json head;
   std::vector<std::string> blocks;
+  std::string first;  ///< inflated
+  /// What the object names by where it begins and its length.
+  std::string piece(const nlohmann::json& of) const { return first.substr(of[0], of[1]); }
   explicit PageRun(const std::string& html) {
     const auto inner = [&](std::size_t& from, const std::string& opening) {
       const std::size_t begin = html.find(opening, from);
@@ -87,10 +93,12 @@ struct PageRun {
     };
     std::size_t at = 0;
     head = nlohmann::json::parse(inner(at, "<script type=\"application/json\" class=\"viewer-run\">"));
-    const std::size_t other = html.find("class=\"viewer-run\"", at);
-    for (std::string block; block = inner(at, "<script type=\"text/plain\" class=\"viewer-block\">"), !block.empty();) {
-      if (at > other) break;
-      blocks.push_back(fromBase64(block));
+    first = inflated(fromBase64(inner(at, "<script type=\"text/plain\" class=\"viewer-first\" data-run=\"0\">")));
+    const std::string opening = "<script type=\"text/plain\" class=\"viewer-block\" data-run=\"0\" data-block=\"";
+    for (at = html.find(opening); at != std::string::npos; at = html.find(opening, at)) {
+      const std::size_t number = std::stoul(html.substr(at + opening.size()));
+      if (number >= blocks.size()) blocks.resize(number + 1);
+      blocks[number] = fromBase64(inner(at, opening + std::to_string(number) + "\">"));
     }
   }
 };
