@@ -30,8 +30,8 @@ struct Human {
 };
 
 /// The obstacles of a body, one per shape in the same order; the segment is the link's name. With a skin it is the only
-/// obstacle, "skin", without the triangles that are switched off, and deforms (Stage::vertices: skinPositions, bridged);
-/// the shapes are what is measured then.
+/// obstacle, "skin", without the triangles that are switched off, and deforms (Stage::vertices gives skinPositions,
+/// with folds bridged); the shapes are what is measured then.
 std::vector<Obstacle> obstaclesOf(const Human& human);
 /// Where these stand: as the shapes, or the identity.
 std::vector<Placement> obstaclePlacementsOf(const Human& human, std::span<const Pose> link_poses);
