@@ -11,12 +11,12 @@ namespace gambeson {
 
 struct Skin;
 
-/// How far vertices are moved from where the skin has them, at even times: `way` of an instant by `vertex`, in the
-/// frame of the link of the vertex's segment [m].
+/// How far vertices are moved from where the skin has them, at even times: of those of instant i, at first[i] up to
+/// first[i + 1], `vertex` and its `way` in the frame of the link of its segment [m].
 struct BridgedFolds {
   double begin_s = 0, every_s = 0.02;
-  std::vector<int> vertex;
-  std::vector<std::vector<Vec3>> way;
+  std::vector<int> first, vertex;
+  std::vector<Vec3> way;
 
   bool empty() const { return vertex.empty(); }
 };

@@ -106,9 +106,11 @@ void takeOff(const std::vector<char>& off, std::vector<char>& tight) {
     if (off[t]) tight[t] = 0;
 }
 
+/// What a skin is like at an instant.
 struct Instant {
+  double time_s = 0;
   std::vector<Pose> poses;
-  std::vector<Vec3> bare, bridged;
+  std::vector<Vec3> bare;
   std::vector<char> tight;
 };
 
@@ -133,6 +135,81 @@ std::vector<char> near(const std::vector<std::array<int, 3>>& triangles, const s
   return out;
 }
 
+/// Bridges one skin, instant after instant: three of them are in hand at a time.
+class Bridging {
+ public:
+  Bridging(const Human& human, double room_m)
+      : human_(human),
+        skin_(*human.skin),
+        triangles_(skin_.rest.triangles),
+        room_m_(room_m),
+        net_(skin_.rest),
+        search_(triangles_, static_cast<int>(skin_.rest.vertices.size())) {}
+
+  /// The skin in a posture; `before`: one whose answer stands where nothing has moved.
+  Instant look(const Posture& p, double time_s, const Instant* before) {
+    Instant now{.time_s = time_s,
+                .poses = linkPoses(human_.skeleton, p.q, p.root),
+                .bare = std::vector<Vec3>(skin_.rest.vertices.size()),
+                .tight = {}};
+    skinPositions(skin_, now.poses, now.bare);
+    now.tight = before && now.bare == before->bare ? before->tight : tightAt(now.bare, room_m_, {});
+    return now;
+  }
+
+  /// Adds the ways of an instant whose skin lacks room where `lacks`.
+  void add(const Instant& now, const std::vector<char>& lacks, BridgedFolds& out, BridgingReport& report) {
+    if (lacks != lacks_ || now.bare != bare_) {
+      lacks_ = lacks;
+      bare_ = now.bare;
+      draw(now, report);
+    }
+    out.first.push_back(static_cast<int>(out.vertex.size()));
+    for (std::size_t v = 0; v < bare_.size(); ++v) {
+      const Vec3 d = bridged_[v] - bare_[v];
+      if (d == Vec3{}) continue;
+      report.farthest_m = std::max(report.farthest_m, norm(d));
+      const Mat3& R = now.poses[static_cast<std::size_t>(skin_.segment[v])].rotation;
+      out.vertex.push_back(static_cast<int>(v));
+      out.way.push_back({dot(R.a, d), dot(R.b, d), dot(R.c, d)});
+    }
+  }
+
+ private:
+  std::vector<char> tightAt(std::span<const Vec3> x, double room_m, std::span<const char> among) {
+    std::vector<char> tight = search_.at(x, room_m, among).triangles;
+    takeOff(skin_.off, tight);
+    return tight;
+  }
+
+  void draw(const Instant& now, BridgingReport& report) {
+    bridged_ = bare_;
+    std::vector<char> lacks = lacks_, around;
+    for (int round = 0; round < kRounds; ++round) {
+      const std::vector<int> in = net_.verticesOf(lacks);
+      if (in.empty()) break;
+      bridged_ = bare_;
+      net_.draw(in, bridged_);
+      around = near(triangles_, in, bridged_, 4 * room_m_);
+      const std::vector<char> still = tightAt(bridged_, room_m_, around);
+      if (std::find(still.begin(), still.end(), 1) == still.end()) break;
+      net_.grow(still, lacks);
+    }
+    if (around.empty()) return;
+    const double left_m2 = areaOf(tightAt(bridged_, 0, around), triangles_, bridged_);
+    if (left_m2 > report.left_m2) report.left_m2 = left_m2, report.left_time_s = now.time_s;
+  }
+
+  const Human& human_;
+  const Skin& skin_;
+  const std::vector<std::array<int, 3>>& triangles_;
+  double room_m_;
+  Net net_;
+  OverlapSearch search_;
+  std::vector<Vec3> bare_, bridged_;  ///< of the last instant that was drawn
+  std::vector<char> lacks_;
+};
+
 }  // namespace
 
 std::vector<char> wholeParts(const TriangleMesh& mesh, const std::vector<char>& triangles) {
@@ -147,84 +224,36 @@ std::vector<char> wholeParts(const TriangleMesh& mesh, const std::vector<char>& 
 
 BridgedFolds bridgeFolds(const Human& human, const std::function<Posture(double)>& posture, double begin_s,
                          double end_s, double every_s, double room_m, BridgingReport& report) {
-  const Skin& skin = *human.skin;
-  const std::vector<std::array<int, 3>>& triangles = skin.rest.triangles;
-  const int vertices = static_cast<int>(skin.rest.vertices.size());
+  const std::vector<std::array<int, 3>>& triangles = human.skin->rest.triangles;
   BridgedFolds out;
   out.begin_s = begin_s;
   const int count = static_cast<int>(std::ceil((end_s - begin_s) / every_s - 1e-9)) + 1;
   out.every_s = count > 1 ? (end_s - begin_s) / (count - 1) : every_s;
   report = {};
   report.instants = count;
-
-  OverlapSearch search(triangles, vertices);
-  std::vector<Instant> instants(static_cast<std::size_t>(count));
+  Bridging bridging(human, room_m);
   std::vector<char> ever(triangles.size(), 0);
-  for (int i = 0; i < count; ++i) {
-    Instant& now = instants[static_cast<std::size_t>(i)];
-    const Posture p = posture(begin_s + i * out.every_s);
-    now.poses = linkPoses(human.skeleton, p.q, p.root);
-    now.bare.resize(skin.rest.vertices.size());
-    skinPositions(skin, now.poses, now.bare);
-    if (i > 0 && now.bare == instants[static_cast<std::size_t>(i) - 1].bare) {
-      now.tight = instants[static_cast<std::size_t>(i) - 1].tight;
-    } else {
-      now.tight = search.at(now.bare, room_m).triangles;
-      takeOff(skin.off, now.tight);
-    }
+  const auto look = [&](int i, const Instant* before) {
+    const double t = begin_s + i * out.every_s;
+    Instant now = bridging.look(posture(t), t, before);
     const double area = areaOf(now.tight, triangles, now.bare);
     report.tight += area > 0;
-    if (area > report.largest_m2) report.largest_m2 = area, report.largest_time_s = begin_s + i * out.every_s;
-    for (std::size_t t = 0; t < ever.size(); ++t) ever[t] |= now.tight[t];
-  }
-  report.links = linksOf(ever, human);
-
-  Net net(skin.rest);
-  std::vector<char> moved(skin.rest.vertices.size(), 0);
-  std::vector<char> lacks_before;
+    if (area > report.largest_m2) report.largest_m2 = area, report.largest_time_s = t;
+    for (std::size_t k = 0; k < ever.size(); ++k) ever[k] |= now.tight[k];
+    return now;
+  };
+  Instant before, now = look(0, nullptr), after;
   for (int i = 0; i < count; ++i) {
-    Instant& now = instants[static_cast<std::size_t>(i)];
+    if (i + 1 < count) after = look(i + 1, &now);
     std::vector<char> lacks = now.tight;
-    for (const int beside : {std::max(0, i - 1), std::min(count - 1, i + 1)})
-      for (std::size_t t = 0; t < lacks.size(); ++t) lacks[t] |= instants[static_cast<std::size_t>(beside)].tight[t];
-    if (i > 0 && lacks == lacks_before && now.bare == instants[static_cast<std::size_t>(i) - 1].bare) {
-      now.bridged = instants[static_cast<std::size_t>(i) - 1].bridged;
-      continue;
-    }
-    lacks_before = lacks;
-    now.bridged = now.bare;
-    std::vector<char> around;
-    for (int round = 0; round < kRounds; ++round) {
-      const std::vector<int> in = net.verticesOf(lacks);
-      if (in.empty()) break;
-      now.bridged = now.bare;
-      net.draw(in, now.bridged);
-      for (const int v : in) moved[static_cast<std::size_t>(v)] = 1;
-      around = near(triangles, in, now.bridged, 4 * room_m);
-      std::vector<char> still = search.at(now.bridged, room_m, around).triangles;
-      takeOff(skin.off, still);
-      if (std::find(still.begin(), still.end(), 1) == still.end()) break;
-      net.grow(still, lacks);
-    }
-    if (around.empty()) continue;
-    std::vector<char> crossed = search.at(now.bridged, 0, around).triangles;
-    takeOff(skin.off, crossed);
-    const double left_m2 = areaOf(crossed, triangles, now.bridged);
-    if (left_m2 > report.left_m2) report.left_m2 = left_m2, report.left_time_s = begin_s + i * out.every_s;
+    for (std::size_t k = 0; k < lacks.size(); ++k)
+      lacks[k] |= (i > 0 && before.tight[k]) || (i + 1 < count && after.tight[k]);
+    bridging.add(now, lacks, out, report);
+    before = std::move(now);
+    now = std::move(after);
   }
-  for (int v = 0; v < vertices; ++v)
-    if (moved[static_cast<std::size_t>(v)]) out.vertex.push_back(v);
-  if (out.vertex.empty()) return out;
-  for (const Instant& now : instants) {
-    std::vector<Vec3>& way = out.way.emplace_back();
-    for (const int of : out.vertex) {
-      const auto v = static_cast<std::size_t>(of);
-      const Vec3 d = now.bridged[v] - now.bare[v];
-      report.farthest_m = std::max(report.farthest_m, norm(d));
-      const Mat3& R = now.poses[static_cast<std::size_t>(skin.segment[v])].rotation;
-      way.push_back({dot(R.a, d), dot(R.b, d), dot(R.c, d)});
-    }
-  }
+  out.first.push_back(static_cast<int>(out.vertex.size()));
+  report.links = linksOf(ever, human);
   return out;
 }
 

@@ -93,8 +93,8 @@ void fields(A& a, T& h) {
 }
 template <class A, Of<BridgedFolds> T>
 void fields(A& a, T& b) {
-  auto& [begin, every, vertex, way] = b;
-  a("begin", begin)("every", every)("vertex", vertex)("way", way);
+  auto& [begin, every, first, vertex, way] = b;
+  a("begin", begin)("every", every)("first", first)("vertex", vertex)("way", way);
 }
 template <class A, Of<Posture> T>
 void fields(A& a, T& p) {

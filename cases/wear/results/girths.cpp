@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 #include <string>
+#include <variant>
 
 #include "cases/wear/scene/placed_bodies.hpp"
 #include "human/body/girths.hpp"
@@ -117,6 +118,18 @@ LengthAround lengthAround(const std::vector<ClothPiece>& pieces, const std::vect
   return std::count(seen.begin(), seen.end(), false) <= kMissing ? length : LengthAround{};
 }
 
+/// Where a garment is short around the body.
+std::vector<Girth> shortOf(const Scenario& s, std::size_t garment, const std::vector<Vec3>& worn) {
+  Surface alone = s.model->surface;
+  std::erase_if(alone.triangles, [&, t = std::size_t{0}](const auto&) mutable {
+    const auto patch = static_cast<std::size_t>(alone.triangle_patch[t++]);
+    return s.model->cloth->patches()[patch].garment != static_cast<int>(garment);
+  });
+  std::vector<Vec3> rest(static_cast<std::size_t>(alone.size()));
+  alone.W.multiply<Vec3>(s.model->cloth->rest(), rest);
+  return shortGirths(alone, rest, worn, {0, 0, 1}, kFittingStretch);
+}
+
 }  // namespace
 
 std::vector<GirthMeasure> girthsAt(const Scenario& s, const std::vector<Vec3>& x, double time_s) {
@@ -158,7 +171,12 @@ void measureGirths(const Scenario& s, const RecordingReader& recording, Measured
   int first = 0;  // the last frame before the motion, when all is put on
   while (first + 1 < recording.frameCount() && !(recording.time(first) > -1e-9)) ++first;
   const Frame frame = recording.frame(first);
-  out.girths = girthsAt(s, vectorsOf(frame.positions), frame.time_s);
+  const std::vector<Vec3> x = vectorsOf(frame.positions);
+  out.girths = girthsAt(s, x, frame.time_s);
+  for (std::size_t g = 0; g < s.definition.garments.size(); ++g)
+    if (std::holds_alternative<PatternGarment>(s.definition.garments[g].shape))
+      if (std::vector<Girth> at = shortOf(s, g, x); !at.empty())
+        out.too_short.push_back({s.definition.garments[g].name, std::move(at)});
 }
 
 }  // namespace gambeson

@@ -22,6 +22,7 @@
 #include "cases/wear/scene/scenario.hpp"
 #include "core/io/recording.hpp"
 #include "human/motion/inverse_statics.hpp"
+#include "tryon/girth.hpp"
 
 namespace gambeson {
 
@@ -288,6 +289,13 @@ struct GirthMeasure {
   std::vector<Worn> worn;  ///< those that go around it
 };
 
+/// A garment of flat panels that is put on but too small: where it is stretched the most around the body as the motion
+/// begins (tryon/girth.hpp).
+struct ShortMeasure {
+  std::string garment;
+  std::vector<Girth> at;
+};
+
 /// The share of a garment that lies inside of one that belongs under it, by area, of what of it has that one within 30
 /// mm along its normal; the largest of up to 40 frames of the motion. Such garments need not cross.
 struct GarmentOrderMeasure {
@@ -341,6 +349,7 @@ struct Measured {
   std::vector<StressSummary> stress;
   std::vector<Stretch> stretch;                    ///< of each garment, against what its fabric is meant for
   std::vector<GirthMeasure> girths;                ///< of a human
+  std::vector<ShortMeasure> too_short;             ///< of those that do not fit
   std::vector<FallMeasure> falls;                  ///< of each garment that a human wears
   std::vector<GarmentOrderMeasure> garment_order;  ///< of each two garments that a human wears
   StepMeasure steps;

@@ -413,6 +413,14 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
           {{"garment", w.garment}, {"length_m", w.length_m}, {"rest_m", w.rest_m}, {"ease_m", w.rest_m - g.body_m}});
     j["girths"].push_back({{"zone", g.zone}, {"body_m", g.body_m}, {"worn", worn}});
   }
+  j["too_short"] = Json::array();
+  for (const ShortMeasure& t : m.too_short)
+    for (const Girth& g : t.at)
+      j["too_short"].push_back({{"garment", t.garment},
+                                {"height_m", g.height_m},
+                                {"rest_m", g.rest_m},
+                                {"worn_m", g.worn_m},
+                                {"short_m", g.short_m()}});
   if (s.definition.human && s.definition.human->measures) {
     MeasuresReport report;
     makeManikin(*s.definition.human->measures, &report);

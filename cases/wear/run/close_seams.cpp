@@ -63,16 +63,13 @@ std::string gapesText(const Scenario& s, const State& state) {
   return text;
 }
 
-/// Stretched by more around the body a garment does not fit; what ease and the fabric's own give is less.
-constexpr double fitting_stretch = 0.02;
-
 /// Where the garment is short around the body, and by how much; empty where it fits.
 std::string fitText(const Scenario& s, const State& state) {
   const Model& m = *s.model;
   std::vector<Vec3> rest(static_cast<std::size_t>(m.surface.size())), worn;
   m.surface.W.multiply<Vec3>(m.cloth->rest(), rest);
   samplePositions(m, state.p, worn);
-  return shortText(shortGirths(m.surface, rest, worn, {0, 0, 1}, fitting_stretch));
+  return shortText(shortGirths(m.surface, rest, worn, {0, 0, 1}, kFittingStretch));
 }
 
 /// Height of a garment, the mean over its samples.

@@ -94,6 +94,19 @@ INSTANTIATE_TEST_SUITE_P(
         std::pair("stack_of_ten", std::vector<std::string>{"time.duration=0.05"})),
     [](const auto& test) { return std::string(test.param.first); });
 
+TEST(RecordedScene, KeepsBridgedFolds) {
+  const auto made = buildScenario(libraryCase("shorts_walk_skin", {"garment.shorts.cell=50 mm", "time.duration=0.05"}));
+  const DeformedVertices bare = deformedVertices(*made->model, *made->stage, 0.03);
+  made->stage->bridged = {.begin_s = 0,
+                          .every_s = 0.02,
+                          .first = {0, 1, 3, 3},
+                          .vertex = {7, 7, 9},
+                          .way = {{0.01, 0, 0}, {0, 0.02, 0}, {0, 0, 0.03}}};
+  const auto read = scenarioOf(made->definition, sceneOf(*made), "frames");
+  EXPECT_NE(deformedVertices(*made->model, *made->stage, 0.03), bare);
+  expectSameBodies(*made, *read);
+}
+
 TEST(RecordedScene, OtherTimesThanThoseAskedForAreAnError) {
   const auto made = buildScenario(
       libraryCase("sleeve_flex", {"garment.tube.cells_around=8", "garment.tube.cells_along=4", "time.duration=0.1"}));

@@ -112,7 +112,8 @@ TEST_F(OnASkin, TheGeneralisedForceIsTheWorkOfTheForces) {
   constexpr double middle = 0.9, turn = 1e-3;
   BridgedFolds& folds = s->stage->bridged;
   for (int v = 0; v < static_cast<int>(skin_->rest.vertices.size()); v += 2) folds.vertex.push_back(v);
-  folds.way.assign(1, std::vector<Vec3>(folds.vertex.size(), {0.03, -0.02, 0.05}));
+  folds.first = {0, static_cast<int>(folds.vertex.size())};
+  folds.way.assign(folds.vertex.size(), {0.03, -0.02, 0.05});
   SkinLedger ledger(*s);
   std::mt19937 rng(5);
   std::normal_distribution<double> normal;
