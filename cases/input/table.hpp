@@ -197,20 +197,27 @@ class Table {
     };
     return *this;
   }
-  /// A list of objects read into a vector.
+  /// A list of objects read into a vector or an optional of one.
   template <class Get>
   Table& list(const std::string& key, Get get, Object table, const std::string& doc) {
     Field& f = add(key, Kind::list, doc);
     f.object = std::make_shared<const Object>(std::move(table));
     f.read = [get, o = f.object](const Entry& p, void* t) {
-      auto& m = member(get, t);
-      m.clear();
-      readItems(p, "objects", [&](const Entry& item) { readObject(*o, item, &m.emplace_back()); });
+      auto& list = listOf(member(get, t));
+      list.clear();
+      readItems(p, "objects", [&](const Entry& item) { readObject(*o, item, &list.emplace_back()); });
     };
     f.write = [get, o = f.object](const void* t) -> std::optional<JsonNode> {
+      const auto& m = member(get, t);
       JsonNode n = emptyList();
-      for (const auto& m : member(get, t)) n.children.push_back(writeObject(*o, &m));
-      return n;
+      const auto write = [&](const auto& list) {
+        for (const auto& one : list) n.children.push_back(writeObject(*o, &one));
+        return std::optional(n);
+      };
+      if constexpr (is_optional<std::remove_cvref_t<decltype(m)>>)
+        return m ? write(*m) : std::nullopt;
+      else
+        return write(m);
     };
     return *this;
   }
@@ -297,6 +304,13 @@ class Table {
   template <class Get>
   static const auto& member(Get get, const void* t) {
     return std::invoke(get, *static_cast<const T*>(t));
+  }
+  template <class M>
+  static auto& listOf(M& m) {
+    if constexpr (is_optional<M>)
+      return m ? *m : m.emplace();
+    else
+      return m;
   }
   static std::optional<JsonNode> writeMember(double x) { return nodeOf(x); }
   static std::optional<JsonNode> writeMember(int x) { return nodeOf(static_cast<double>(x)); }

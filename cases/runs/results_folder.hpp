@@ -15,6 +15,9 @@ inline constexpr const char* kDressingFile = "dressing.h5";
 /// Where a run that goes on says how far it is; gone when it is done.
 inline constexpr const char* kProgressFile = "progress.txt";
 
+/// A film of the motion, where the case names no pictures.
+inline constexpr const char* kFilmFile = "film.mp4";
+
 using Paths = std::vector<std::filesystem::path>;
 
 /// Throws InputError ("command line", --out) where a run that writes into `out` would replace something: a file that is

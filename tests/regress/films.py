@@ -156,6 +156,30 @@ def ranges(results, folder):
     check(bright[0] > 10 * bright[1] + 10, f"--range changes nothing: {bright}")
 
 
+def marks(folder):
+    """Cloth 2 mm inside of a ball is magenta, with a legend, and where it lies on it nothing is. Neither case names
+    pictures, so that each leaves one picture and a film."""
+    magenta = []
+    for low in (0.098, 0.1013):
+        out, case = folder / f"{low}", json.loads((HERE / "sphere.json").read_text())
+        case["garment"]["sheet"]["corner"][2] = low
+        case["time"] = {"duration": "100 us"}
+        case["output"] = {"window": "20 us", "frame": "20 us", "checkpoint": "20 us"}
+        (folder / "marks.json").write_text(json.dumps(case))
+        run_case(folder / "marks.json", out)
+        pictures, film = list((out / "snapshots").glob("*.png")), Film(out / "film.mp4")
+        check(len(pictures) == 1 and "plain" in pictures[0].name, f"without pictures there are {pictures}")
+        check((film.width, film.height) == (800, 600) and film.frames, "the usual film is another")
+        check("film.mp4" in (out / "report.html").read_text(), "the page does not speak of the film")
+        above = render(out, folder / "marks.png", "--view", "top", "--field", "plain")
+        magenta.append([sum(c[0] > 190 and c[1] < 90 and 80 < c[2] < 210 for x in span for y in range(above.height)
+                            for c in [above.at(0, x, y)])
+                        for span in (range(above.width // 3), range(above.width // 3, above.width))])
+    (legend, cloth), (no_legend, dry) = magenta
+    check(legend > 20 and cloth > 200, f"of what is inside {cloth} pixels are magenta, of the legend {legend}")
+    check(no_legend == dry == 0, f"of what is outside {dry} pixels are magenta, of a legend {no_legend}")
+
+
 def refusals(results, folder):
     for name in ("film.avi", "film.mov", "film", "film.mp4.txt"):
         refused((".png", ".mp4", ".webm", ".gif"), results, "-o", folder / name)
@@ -188,6 +212,7 @@ def main():
         sides(sphere, folder)
         ranges(sphere, folder)
         cameras(shorts, folder)
+        marks(folder)
     print("films hold")
 
 

@@ -282,7 +282,7 @@ struct OutputCase {
   double window_s = 0.01;     ///< forces are impulses over this time
   double frame_s = 0.02;      ///< a multiple of window_s
   double checkpoint_s = 0.1;  ///< a multiple of frame_s
-  std::vector<PictureCase> pictures;
+  std::optional<std::vector<PictureCase>> pictures;  ///< absent: the usual one and a film
   bool viewer = true;  ///< the page has one
 };
 

@@ -24,7 +24,8 @@ Object outputTable() {
       .number("frame", &O::frame_s, "s", between(1e-5, 10), "time between recorded frames; a multiple of window")
       .number("checkpoint", &O::checkpoint_s, "s", between(1e-5, 100),
               "time between points from which an interrupted run resumes; a multiple of frame")
-      .list("pictures", &O::pictures, pictureTable(), "pictures to take")
+      .list("pictures", &O::pictures, pictureTable(), "pictures to take; [] for none")
+      .defaultsTo("one of what is worn, and of a motion a film of it (film.mp4)")
       .flag("viewer", &O::viewer,
             "the page has a view to look around in: the motion in three dimensions (some 5 to 30 MB)")
       .unwritten()

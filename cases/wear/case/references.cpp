@@ -62,8 +62,8 @@ void checkLinks(const Entry& root, const Case& c, const Skeleton& skeleton) {
 }
 
 void checkPictures(const Entry& root, const Case& c, double duration_s) {
-  for (std::size_t i = 0; i < c.output.pictures.size(); ++i) {
-    const PictureCase& p = c.output.pictures[i];
+  for (std::size_t i = 0; c.output.pictures && i < c.output.pictures->size(); ++i) {
+    const PictureCase& p = (*c.output.pictures)[i];
     if (p.when != PictureTime::at || p.time_s <= duration_s * (1 + 1e-9)) continue;
     const Entry at = listItem(root.member(*root.node.find("output")), "pictures", i);
     at.failAt("time", fmt::format("{} is out of range; allowed: 0 to {}, peak or end",

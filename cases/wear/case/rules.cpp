@@ -281,8 +281,8 @@ void checkPictureFields(const Entry& root, const Case& c) {
   };
   for (const GarmentCase& g : c.garments)
     if (remembers(fabricOf(c, g)) || std::any_of(g.other_fabrics.begin(), g.other_fabrics.end(), remembers)) return;
-  for (std::size_t i = 0; i < c.output.pictures.size(); ++i)
-    if (const PictureField f = c.output.pictures[i].field; f == PictureField::set || f == PictureField::friction)
+  for (std::size_t i = 0; c.output.pictures && i < c.output.pictures->size(); ++i)
+    if (const PictureField f = (*c.output.pictures)[i].field; f == PictureField::set || f == PictureField::friction)
       root.member(*root.node.find("output"))
           .member(*root.node.find("output")->find("pictures"))
           .item(i)

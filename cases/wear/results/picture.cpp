@@ -46,6 +46,13 @@ std::string wordsOf(const Viewpoint& from) {
 
 }  // namespace
 
+std::vector<PictureCase> picturesOf(const Case& c) {
+  PictureCase usual;
+  usual.field = PictureField::plain;
+  usual.when = c.human ? PictureTime::peak : PictureTime::end;
+  return c.output.pictures.value_or(std::vector{usual});
+}
+
 double fieldRange(const Scenario& s, const RecordingReader& recording, PictureField field) {
   if (field == PictureField::plain) return 0;
   if (field == PictureField::body_pressure) {

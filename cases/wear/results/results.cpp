@@ -12,9 +12,11 @@
 #include "cases/input/json_at.hpp"
 #include "cases/input/message.hpp"
 #include "cases/runs/recorded_case.hpp"
+#include "cases/runs/results_folder.hpp"
 #include "cases/runs/temporary_folder.hpp"
 #include "cases/wear/recording/recorded_scene.hpp"
 #include "cases/wear/results/check_words.hpp"
+#include "cases/wear/results/film.hpp"
 #include "cases/wear/results/viewer.hpp"
 #include "cases/wear/results/write.hpp"
 #include "core/error.hpp"
@@ -50,7 +52,7 @@ std::vector<Picture> takePictures(const Scenario& s, const RecordingReader& reco
   std::map<PictureAround, PictureScale> scales;
   double most_N = 0;
   for (const bool draw : {false, true})
-    for (const PictureCase& picture : s.definition.output.pictures) {
+    for (const PictureCase& picture : picturesOf(s.definition)) {
       std::string name;
       try {
         const int frame = frameOf(recording, m, picture);
@@ -73,6 +75,24 @@ std::vector<Picture> takePictures(const Scenario& s, const RecordingReader& reco
       }
     }
   return pictures;
+}
+
+/// A film of what is worn, where the case names no pictures.
+void takeFilm(const Scenario& s, const RecordingReader& recording, const std::filesystem::path& dir,
+              std::vector<std::string>& failures, ReportInput& in) {
+  const int count = recording.frameCount();
+  if (s.definition.output.pictures || count < 2 || !(recording.time(count - 1) > 0)) return;
+  FilmRequest film;
+  film.results = {dir};
+  film.output = dir / kFilmFile;
+  film.picture = picturesOf(s.definition).front();
+  film.picture.width = 800, film.picture.height = 600;
+  try {
+    renderFilm(film);
+    in.facts.push_back({"Film", std::string(kFilmFile) + ", beside this page"});
+  } catch (const RunError& e) {
+    failures.push_back(fmt::format("The film could not be drawn: {}", e.what()));
+  }
 }
 
 std::vector<Picture> takeBodyPictures(const Scenario& s, const Measured& m, const std::filesystem::path& folder,
@@ -214,6 +234,7 @@ void writeResults(const std::filesystem::path& dir) {
   ReportInput in = reportInput(s, m, facts, recording.layout().identity, pictures);
   in.comfort_pictures = takeBodyPictures(s, m, dir / "snapshots", failures);
   addViewer(s, recording, m, in);
+  takeFilm(s, recording, dir, failures, in);
   in.warnings.insert(in.warnings.end(), failures.begin(), failures.end());
   writeReport(in, dir / "report.html");
   for (const AuditCheck& c : in.audit)

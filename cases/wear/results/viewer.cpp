@@ -12,6 +12,7 @@
 #include "cases/wear/results/animation.hpp"
 #include "cases/wear/results/force_clusters.hpp"
 #include "cases/wear/results/shown.hpp"
+#include "cases/wear/results/write.hpp"
 #include "core/error.hpp"
 #include "core/math/parallel.hpp"
 
@@ -39,7 +40,7 @@ class ViewMaker {
         run_(s.definition.name, label, scene_.time_s, origins(), up()) {}
 
   ViewerRun make() {
-    const std::vector<PictureCase>& pictures = s_.definition.output.pictures;
+    const std::vector<PictureCase> pictures = picturesOf(s_.definition);
     const auto first = std::find_if(pictures.begin(), pictures.end(), [](const PictureCase& p) {
       return p.field != PictureField::plain && p.field != PictureField::body_pressure;
     });

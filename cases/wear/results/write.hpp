@@ -50,6 +50,10 @@ void addZones(const Measured& measured, ReportInput& in);
 /// (analysis/opensim_model.hpp).
 void writeOpenSim(const Scenario& scenario, const Measured& measured, const std::filesystem::path& prefix);
 
+/// The pictures of a run: those of its case, or where that names none one of what is worn, of which there is a film
+/// too.
+std::vector<PictureCase> picturesOf(const Case& c);
+
 /// Pressure on the body against comfort limits, for the page; nothing where nothing touches a human.
 void addComfort(const Scenario& scenario, const Measured& measured, ReportInput& in);
 

@@ -29,6 +29,10 @@ double closedCells(const Scenario& s) {
 /// mm/s.
 constexpr double closing_m_per_s = 0.5, closing_per_s = 15, closing_tolerance = 2;
 
+/// Seams close by a tenth in some hundredths of a second. Those that have not for so long, jam: the wearer or other
+/// cloth stands between them, and each step costs all sweeps.
+constexpr double nearer = 0.9, jammed_s = 1;
+
 /// Resistance to all motion while seams close: force over mass and velocity. Without weight, friction and resistance
 /// nothing takes what seams and contacts give: panels flutter at some m/s, and leave the wearer.
 constexpr double closing_drag_per_s = 20;
@@ -87,6 +91,18 @@ constexpr double most_rise_m = 0.15;
 
 void nobody(const State&, const State&, const StepReport&, const StepResult&, const Frequency&) {}
 
+/// Why seams do not close: where the garment is short comes first, since nothing else helps there.
+std::string gapingText(const Scenario& s, const State& state, double widest, double closed_cells) {
+  const std::string fit = fitText(s, state);
+  const std::string gape =
+      fmt::format("seams gape after {:.3g} s, {:.2g} sides of a cell at most (to be closed: {}): {}",
+                  state.time_s - s.start_s, widest, closed_cells, gapesText(s, state));
+  if (!fit.empty()) return fmt::format("the garment does not fit: {}. Its {}", fit, gape);
+  return gape +
+         "; more time (close_within), panels that stand nearer to the wearer, or the other way to place them "
+         "(\"placing\" in the pattern's file: given, regions) may close them";
+}
+
 /// Its seams close around the body (core/motion/sewing.hpp), without weight, up to closed_s.
 State closedAround(const Scenario& s, double closed_s, Frequency& frequency, DressingProgress& progress) {
   const Model& m = *s.model;
@@ -95,20 +111,15 @@ State closedAround(const Scenario& s, double closed_s, Frequency& frequency, Dre
   const TimeCase& time = s.definition.time;
   const std::unique_ptr<Integrator> integrator =
       makeIntegrator(time.motion, m, *s.stage, time.control(), frequency, work);
-  double widest = widestGap(m, state.p);
+  double widest = widestGap(m, state.p), least = widest, since_s = state.time_s;
   const double closed_cells = closedCells(s);
-  while (widest > closed_cells && state.time_s < closed_s - 1e-9) {
+  while (widest > closed_cells && state.time_s < closed_s - 1e-9 && state.time_s < since_s + jammed_s) {
     integrator->advance(std::min(closed_s, state.time_s + seams_look_s), state, nobody);
     widest = widestGap(m, state.p);
+    if (widest < nearer * least) least = widest, since_s = state.time_s;
     progress.keep(Donning::wearing, state, frequency);
   }
-  if (widest > closed_cells)
-    throw RunError(
-        fmt::format("seams gape after {} s, {:.2g} sides of a cell at most (to be closed: {}): {}; more time "
-                    "(close_within), panels that stand nearer to the wearer, or the other way to place them "
-                    "(\"placing\" in the pattern's file: given, regions) may close them{}{}",
-                    closed_s - s.start_s, widest, closed_cells, gapesText(s, state),
-                    fitText(s, state).empty() ? "" : ". It does not fit: ", fitText(s, state)));
+  if (widest > closed_cells) throw RunError(gapingText(s, state, widest, closed_cells));
   requireWorn(s, state);
   if (const std::string fit = fitText(s, state); !fit.empty())
     sayNote(fmt::format("garment \"{}\" does not fit: {}", s.wardrobe.drafts[0].name, fit));

@@ -45,9 +45,9 @@ TEST(Case, FieldsArriveInSi) {
   EXPECT_FALSE(c.contact.layer_m);  // the thickness
   EXPECT_TRUE(c.air.with_pelvis);
   EXPECT_DOUBLE_EQ(c.dressing.projecting->clearance_m, 5e-3);
-  EXPECT_EQ(c.output.pictures[0].when, PictureTime::peak);
-  EXPECT_EQ(c.output.pictures[1].when, PictureTime::at);
-  EXPECT_EQ(c.output.pictures[1].view, View::back);
+  EXPECT_EQ(c.output.pictures->at(0).when, PictureTime::peak);
+  EXPECT_EQ(c.output.pictures->at(1).when, PictureTime::at);
+  EXPECT_EQ(c.output.pictures->at(1).view, View::back);
   EXPECT_EQ(c.analysis.counting, Counting::all_distal);
   EXPECT_FALSE(c.time.duration_s);
 }
