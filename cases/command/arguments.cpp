@@ -118,6 +118,37 @@ void addCheck(CLI::App& app, CheckArguments& a) {
       "is not valid, and the message says file, line, key and what is allowed.");
 }
 
+void addNew(CLI::App& app, NewCase& a) {
+  CLI::App& command = *app.add_subcommand(
+      "new", "Writes a case that runs, from five answers: options, or else questions where this is a terminal");
+  command.add_option("CASE", a.file, "File to write [GARMENT_MOTION.json]")->type_name("");
+  command
+      .add_option("--garment", a.garment,
+                  "What is worn: shorts, trousers, shirt, sleeves (a shirt with long ones), or a pattern's file that "
+                  "gambeson import wrote [shorts]")
+      ->type_name("GARMENT");
+  command
+      .add_option("--fabric", a.fabric,
+                  "A card of the library (denim_a, petrak_m6_cotton_twill, ...) or a card's file [denim_a]")
+      ->type_name("CARD");
+  command
+      .add_option("--wearer", a.wearer,
+                  "male_p5, male_p50, male_p95, female_p5, female_p50, female_p95, or a body scan's file (.obj, .ply) "
+                  "[male_p50]")
+      ->type_name("WEARER");
+  command.add_option("--motion", a.motion, "stand, walk, stairs, step_over, sit or aim [stand]")->type_name("MOTION");
+  command
+      .add_option("--cells", a.cells, "coarse, medium or fine: fine takes some ten times as long as coarse [coarse]")
+      ->type_name("CELLS");
+  command.footer(
+      "The case is checked on its wearer as it is written. Its file is small and meant to be edited "
+      "(cases/FIELDS.md).\n\n"
+      "Examples:\n"
+      "  gambeson new                                                     asks\n"
+      "  gambeson new walk.json --garment trousers --wearer female_p50 --motion walk\n"
+      "  gambeson new --garment shirt_pattern.json --fabric poplin.card.json --wearer scan.obj");
+}
+
 void addDraft(CLI::App& app, DraftArguments& a) {
   CLI::App& draft = *app.add_subcommand(
       "draft", "Writes a garment of a case, made on its human, as a file that can be edited and worn");

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cases/command/new_case.hpp"
 #include "cases/fabric/run.hpp"
 #include "cases/homogenise/homogenise.hpp"
 #include "cases/pattern/import.hpp"
@@ -82,6 +83,7 @@ struct TogetherArguments {
 
 /// Each adds one command, whose options fill what it is told.
 void addRun(CLI::App& app, RunArguments& a);
+void addNew(CLI::App& app, NewCase& answers);
 void addDress(CLI::App& app, DressArguments& a);
 void addCheck(CLI::App& app, CheckArguments& a);
 void addDraft(CLI::App& app, DraftArguments& a);

@@ -1,11 +1,13 @@
 #include "cases/command/cli.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <iostream>
 #include <ostream>
 #include <sstream>
 
@@ -360,6 +362,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   app.footer(
       "Start with:\n"
       "  gambeson run cases/library/shorts_walk.json            a case of the library: a report in minutes\n"
+      "  gambeson new                                           a case of your own, from five questions\n"
       "  gambeson import PATTERN -o pattern.json --svg pattern.svg   then your own: the pattern,\n"
       "  gambeson fabric CARD -o fabric.json                         the lab sheet as a card,\n"
       "  gambeson check CASE                                         the case that names both and who wears them,\n"
@@ -367,6 +370,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
       "cloth, your wearer\")\n\n"
       "gambeson SUBCOMMAND --help says more. The fields of a case: cases/FIELDS.md, or gambeson check --doc.");
   RunArguments run_arguments;
+  NewCase new_case;
   CheckArguments check_arguments;
   DressArguments dress_arguments;
   DraftArguments draft_arguments;
@@ -375,6 +379,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   ExportArguments export_arguments;
   verify::Options verify_options;
   addRun(app, run_arguments);
+  addNew(app, new_case);
   addDress(app, dress_arguments);
   addCheck(app, check_arguments);
   addDraft(app, draft_arguments);
@@ -412,7 +417,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
       !command.starts_with('-') &&
       app.get_subcommands([&](const CLI::App* a) { return a->get_name() == command; }).empty()) {
     failure(fmt::format(
-        "gambeson: there is no command \"{}\"; there are run, dress, check, draft, render, report, export, verify, "
+        "gambeson: there is no command \"{}\"; there are new, run, dress, check, draft, render, report, export, verify, "
         "study, "
         "batch, fabric, import and homogenise (see "
         "gambeson --help)",
@@ -425,6 +430,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
              {run_arguments.file, "CASE"},
              {run_arguments.options.out, "--out"},
              {check_arguments.file, "CASE"},
+             {new_case.file, "CASE"},
              {dress_arguments.file, "CASE"},
              {dress_arguments.output, "--output"},
              {draft_arguments.file, "CASE"},
@@ -463,6 +469,10 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
       subject = folder.string();
     }
     if (app.got_subcommand("run")) return run(run_arguments);
+    if (app.got_subcommand("new")) {
+      if (isatty(STDIN_FILENO) != 0) askForCase(new_case, std::cin, out);
+      return writeNewCase(new_case, out);
+    }
     if (app.got_subcommand("dress")) return dressCase(dress_arguments);
     if (app.got_subcommand("check")) return check(check_arguments, out);
     if (app.got_subcommand("draft")) return draft(draft_arguments, out);

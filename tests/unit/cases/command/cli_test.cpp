@@ -28,7 +28,7 @@ Outcome gambeson(const Folder& folder, const std::string& arguments) {
 TEST(Command, HelpForNewcomers) {
   const Folder folder;
   for (const char* subcommand :
-       {"", "run ", "check ", "render ", "report ", "verify ", "study ", "batch ", "fabric "}) {
+       {"", "new ", "run ", "check ", "render ", "report ", "verify ", "study ", "batch ", "fabric "}) {
     const Outcome o = gambeson(folder, std::string(subcommand) + "--help");
     SCOPED_TRACE(subcommand);
     EXPECT_EQ(o.status, 0);
