@@ -18,7 +18,7 @@ h3 { font-size:1rem; margin:0 0 8px; }
 .headline { display:grid; grid-template-columns:minmax(0,1fr); gap:24px; margin:20px 0 0; background:var(--paper); border:1px solid var(--line); border-radius:14px; overflow:hidden; }
 .headline .words { padding:26px 28px; }
 .headline .sentence { font-size:1.5rem; line-height:1.3; margin:0 0 18px; font-weight:600; text-wrap:balance; }
-.headline img { width:100%; height:auto; max-height:560px; object-fit:contain; display:block; background:#f9fafa; }
+.headline img { width:100%; height:auto; max-height:640px; object-fit:contain; display:block; background:#f9fafa; }
 .headline figure { margin:0; } .headline > .meaning { grid-column:1 / -1; margin:-24px 28px 24px; }
 .headline figcaption { padding:6px 16px 12px; font-size:.9rem; color:var(--soft); }
 dl.answers { display:grid; grid-template-columns:max-content minmax(0,1fr); gap:7px 18px; margin:0; }

@@ -50,6 +50,7 @@ std::vector<PictureCase> picturesOf(const Case& c) {
   PictureCase usual;
   usual.field = PictureField::plain;
   usual.when = c.human ? PictureTime::peak : PictureTime::end;
+  if (c.human) std::swap(usual.width, usual.height);  // as the wearer stands, and as its place on the page is
   return c.output.pictures.value_or(std::vector{usual});
 }
 

@@ -86,7 +86,7 @@ void takeFilm(const Scenario& s, const RecordingReader& recording, const std::fi
   film.results = {dir};
   film.output = dir / kFilmFile;
   film.picture = picturesOf(s.definition).front();
-  film.picture.width = 800, film.picture.height = 600;
+  for (int* size : {&film.picture.width, &film.picture.height}) *size = *size * 5 / 8;
   try {
     renderFilm(film);
     in.facts.push_back({"Film", std::string(kFilmFile) + ", beside this page"});
