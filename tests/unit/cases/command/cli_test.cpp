@@ -146,7 +146,7 @@ TEST(Command, BadInputExitsWithTwo) {
   const std::array<std::pair<std::string, std::string>, 18> cases{{
       {"", "gambeson run cases/library/shorts_walk.json"},
       {"dance",
-       "there is no command \"dance\"; there are run, dress, check, draft, render, report, export, verify, study, "
+       "there is no command \"dance\"; there are new, run, dress, check, draft, render, report, export, verify, study, "
        "batch, fabric, import and homogenise"},
       {"run", "CASE"},
       {"run example.json --fast", "--fast"},
