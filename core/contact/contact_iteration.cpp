@@ -14,6 +14,7 @@ namespace {
 using Island = ContactWork::Island;
 
 constexpr int kLarge = 2048;         ///< rows of an island that all threads share
+constexpr double kLost = 1e3;        ///< times the least residual: momentum has run away
 constexpr std::size_t kShared = 64;  ///< rows from which on threads share islands
 
 /// The sum of the first `width` (a power of two) of some parts: neighbours in pairs, pairs of these and so on.
@@ -138,14 +139,21 @@ void iterateIsland(const SweepLimits& limits, Island& now, ContactWork& w, const
     for (int c = now.chunk; c < now.chunk_end; ++c) part[(c - now.chunk) % kSumLanes] += w.against[c];
     return sumOfParts(part, kSumLanes);
   };
+  // Where points are held, sweeps with momentum may grow without end; from there on they go without.
+  double least = 0;
+  bool calm = false;
   while (goesOn(now, limits)) {
-    const double caution = cautionOf(now);
-    each.points(now, [&](int f, int end) { extrapolatePoints(w, now.beta, f, end); });
+    const double caution = cautionOf(now), beta = calm ? 0 : now.beta;
+    each.points(now, [&](int f, int end) { extrapolatePoints(w, beta, f, end); });
     each(w, now, [&](int c) {
-      sweepRows(w, now.held, now.beta, caution, w.chunks[c].row, w.chunks[c + 1].row, w.largest2[c], w.against[c]);
+      sweepRows(w, now.held, beta, caution, w.chunks[c].row, w.chunks[c + 1].row, w.largest2[c], w.against[c]);
     });
     const double against = sumOf();
     const bool looks = sweptWith(mostOf(), limits, now);
+    if (now.held) {
+      if (least == 0 || now.residual_m_per_s < least) least = now.residual_m_per_s;
+      calm = calm || !(now.residual_m_per_s < kLost * least);
+    }
     each.finish(now, looks, w);
     if (looks) {
       each.wait();

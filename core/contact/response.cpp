@@ -109,8 +109,6 @@ void join(const Problem& p, ContactWork& w) {
     island.beta = slowest->beta;
     island.momentum = slowest->momentum;
     island.caution = slowest->caution;
-    island.calm = slowest->calm;
-    island.least = slowest->least;
     island.iterations = slowest->iterations;
     island.residual_m_per_s = slowest->residual_m_per_s;
     island.done = same && slowest->done;

@@ -152,9 +152,7 @@ struct ContactWork {
     int row = 0, row_end = 0, free_point = 0, free_end = 0, chunk = 0, chunk_end = 0;
     double beta = 0, momentum = 1;  ///< of Nesterov's sequence
     double caution = 1;             ///< by which steps are shorter where the sequence does not settle
-    bool calm = false;              ///< goes on without momentum, with which it grew without end
     double best = 0;                ///< residual that counts as progress, 0: none yet
-    double least = 0;               ///< of all that counted, 0: none yet
     int waiting = 0;                ///< iterations since
     int iterations = 0;
     double residual_m_per_s = 0;

@@ -78,17 +78,14 @@ GAMBESON_HD inline double cautionOf(const ContactWork::Island& island) {
   return island.row_end - island.row == 1 ? 1 : kCaution * island.caution;
 }
 
-/// Where the residual has not fallen for long, or has grown out of hand, the sequence begins anew with shorter steps,
-/// and where it has grown a thousandfold all the same, sweeps go on without momentum.
+/// Where the residual has not fallen for long, or has grown out of hand, the sequence begins anew with shorter steps.
 GAMBESON_HD inline void watch(ContactWork::Island& island) {
-  constexpr double kMoreCaution = 1.5, kMostCaution = 4 / 1.2, kProgress = 0.9, kGrown = 10, kLost = 1e3;
+  constexpr double kMoreCaution = 1.5, kMostCaution = 4 / 1.2, kProgress = 0.9, kGrown = 10;
   constexpr int kPatience = 120;
   if (island.best == 0 || island.residual_m_per_s < kProgress * island.best) {
     island.best = island.residual_m_per_s;
-    if (island.least == 0 || island.best < island.least) island.least = island.best;
     island.waiting = 0;
   } else if (++island.waiting > kPatience || !(island.residual_m_per_s < kGrown * island.best)) {
-    island.calm = island.calm || !(island.residual_m_per_s < kLost * island.least);
     island.caution = std::min(kMoreCaution * island.caution, kMostCaution);
     island.best = 0;
     island.waiting = 0;
@@ -131,7 +128,7 @@ GAMBESON_HD inline void goOn(double against, const SweepLimits& limits, const Ah
                              ContactWork::Island& island) {
   const bool anew = island.momentum != ahead.from;  // `watch` began the sequence again
   advance(against, anew ? aheadOf(island.momentum) : ahead, island);
-  if (island.iterations + 1 >= limits.calm || island.calm) island.beta = 0;
+  if (island.iterations + 1 >= limits.calm) island.beta = 0;
   ++island.iterations;
 }
 
