@@ -121,10 +121,12 @@ LengthAround lengthAround(const std::vector<ClothPiece>& pieces, const std::vect
 /// Where a garment is short around the body.
 std::vector<Girth> shortOf(const Scenario& s, std::size_t garment, const std::vector<Vec3>& worn) {
   Surface alone = s.model->surface;
-  std::erase_if(alone.triangles, [&, t = std::size_t{0}](const auto&) mutable {
-    const auto patch = static_cast<std::size_t>(alone.triangle_patch[t++]);
-    return s.model->cloth->patches()[patch].garment != static_cast<int>(garment);
-  });
+  alone.triangles.clear();
+  for (std::size_t t = 0; t < s.model->surface.triangles.size(); ++t) {
+    const auto patch = static_cast<std::size_t>(alone.triangle_patch[t]);
+    if (s.model->cloth->patches()[patch].garment == static_cast<int>(garment))
+      alone.triangles.push_back(s.model->surface.triangles[t]);
+  }
   std::vector<Vec3> rest(static_cast<std::size_t>(alone.size()));
   alone.W.multiply<Vec3>(s.model->cloth->rest(), rest);
   return shortGirths(alone, rest, worn, {0, 0, 1}, kFittingStretch);
