@@ -1,4 +1,4 @@
-# Shared by cases/quickstart and tests/run: installs what is missing with apt-get (Debian 12, Ubuntu 24.04), configures and builds the release.
+# Shared by cases/quickstart and tests/run: installs what is missing with apt-get (Debian 12), configures and builds the release.
 # To be sourced with the current folder at the root of the sources. `build` is the build folder, `cmake_options` what
 # the caller adds to the configuration.
 
