@@ -24,10 +24,6 @@ struct Girth {
 std::vector<Girth> girthsAt(const Surface& surface, std::span<const Vec3> rest, std::span<const Vec3> worn, Vec3 up,
                             double height_m);
 
-/// A garment stretched by more than this part around the body does not fit; what ease and the fabric's own give is
-/// less.
-constexpr double kFittingStretch = 0.02;
-
 /// Of all heights, `step_m` apart, closed cuts that are stretched by more than `part` of their length, the most
 /// stretched within each 10 cm, from the shortest on, at most `most` of them. Cuts of less than 10 cm, or short by less
 /// than 1 mm, are none.

@@ -166,6 +166,14 @@ void checkAlternatives(const Object& object, const Entry& entry, bool all_known)
   }
 }
 
+/// A value that lies beyond a bound by the rounding of its conversion alone is the bound: 10 us are 1e-5 s less an ulp.
+double roundedTo(const Range& range, double x) {
+  if (!std::isfinite(x) || range.contains(x)) return x;
+  for (const double bound : {range.low, range.high})
+    if (std::abs(x - bound) <= 4 * std::numeric_limits<double>::epsilon() * std::abs(x)) return bound;
+  return x;
+}
+
 }  // namespace
 
 void readObject(const Object& object, const Entry& entry, void* target) {
@@ -233,6 +241,7 @@ double readNumber(const Entry& entry, const std::string& unit, const Range& rang
                            unit.empty() ? "" : fmt::format(" in {} or a text with a unit", unit), describe(entry.node),
                            range.text(unit)));
   }
+  typed.si = roundedTo(range, typed.si);
   if (!std::isfinite(typed.si) || !range.contains(typed.si))
     entry.fail(fmt::format("{} is out of range; allowed: {}",
                            entry.node.type == JsonNode::Type::text ? entry.node.text : withUnit(typed.si, unit),

@@ -129,7 +129,7 @@ std::vector<Girth> shortOf(const Scenario& s, std::size_t garment, const std::ve
   }
   std::vector<Vec3> rest(static_cast<std::size_t>(alone.size()));
   alone.W.multiply<Vec3>(s.model->cloth->rest(), rest);
-  return shortGirths(alone, rest, worn, {0, 0, 1}, kFittingStretch);
+  return shortGirths(alone, rest, worn, {0, 0, 1}, standsOf(fabricOf(s.definition, s.definition.garments[garment])));
 }
 
 }  // namespace

@@ -24,9 +24,8 @@ double closedCells(const Scenario& s) {
   return s.definition.garments[0].cloth.kind == ClothKind::triangles ? 1e-3 : 0.01;
 }
 
-/// Of panels without weight: the speed of the widest gap, and the part of a gap that closes in a second. From their
-/// quotient on, 33 mm, seams bind contacts (findOpenSeams). And what contacts may leave of it, as a part of g dt: some
-/// mm/s.
+/// Of panels without weight: the speed of the widest gap, and the part of a gap that closes in a second. And what
+/// contacts may leave of it, as a part of g dt: some mm/s.
 constexpr double closing_m_per_s = 0.5, closing_per_s = 15, closing_tolerance = 2;
 
 /// Seams close by a tenth in some hundredths of a second. Those that have not for so long, jam: the wearer or other
@@ -73,7 +72,8 @@ std::string fitText(const Scenario& s, const State& state) {
   std::vector<Vec3> rest(static_cast<std::size_t>(m.surface.size())), worn;
   m.surface.W.multiply<Vec3>(m.cloth->rest(), rest);
   samplePositions(m, state.p, worn);
-  return shortText(shortGirths(m.surface, rest, worn, {0, 0, 1}, kFittingStretch));
+  return shortText(
+      shortGirths(m.surface, rest, worn, {0, 0, 1}, standsOf(fabricOf(s.definition, s.definition.garments[0]))));
 }
 
 /// Height of a garment, the mean over its samples.

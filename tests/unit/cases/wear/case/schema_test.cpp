@@ -52,6 +52,14 @@ TEST(Case, FieldsArriveInSi) {
   EXPECT_FALSE(c.time.duration_s);
 }
 
+/// 10 us are 1e-5 s less an ulp.
+TEST(Case, ABoundThatIsTypedInAUnitIsInItsRange) {
+  const Folder folder;
+  const std::string with = replaced(example, "\"frame\": \"20 ms\"", "\"frame\": \"20 ms\", \"window\": \"10 us\"");
+  EXPECT_EQ(readCase(folder.write("example.json", with)).output.window_s, 1e-5);
+  EXPECT_THROW(readCase(folder.write("a.json", replaced(with, "10 us", "9.999 us"))), InputError);
+}
+
 TEST(Case, EitherDensity) {
   const Folder folder;
   const Case c = readCase(folder.write(

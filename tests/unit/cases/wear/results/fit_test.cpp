@@ -10,6 +10,7 @@
 #include "cases/pattern/pattern_file.hpp"
 #include "cases/wear/recording/recorder.hpp"
 #include "cases/wear/results/check_words.hpp"
+#include "cases/wear/results/girths.hpp"
 #include "cases/wear/results/stretch_checks.hpp"
 #include "cases/wear/results/write.hpp"
 #include "unit/cases/example.hpp"
@@ -238,6 +239,38 @@ TEST(Fit, ASeamThatGapesFailsItsCheck) {
     const AuditCheck* check = checkOf(checks, "Seams");
     ASSERT_TRUE(check);
     EXPECT_EQ(check->holds(), gap_m < 1e-3);
+  }
+}
+
+/// Two skirts a tenth wider than they were cut: too short where the fabric may be stretched by a fiftieth, worn as it
+/// is meant to be where it is a knit.
+TEST(Fit, WhichGarmentIsTooShortGoesByItsFabric) {
+  const Folder folder;
+  folder.write("skirt.json", patternText(region_patterns::skirt({})));
+  const std::string fabric =
+      R"("fabric": {"thickness": "1 mm", "density": "500 kg/m^3", "young": "1 MPa", "poisson": 0.3,
+      LIMIT "bending": {"law": "linear", "rigidity": "1e-4 N m"}})";
+  const auto s = buildScenario(readCase(folder.write(
+      "two.json", R"({"name": "two", "garments": [
+      {"name": "woven", "pattern": {"path": "skirt.json", "cell": "60 mm"}},
+      {"name": "knit", "pattern": {"path": "skirt.json", "cell": "60 mm"}, )" +
+                      with(fabric, "LIMIT", R"("limit_strain_weft": "50 %", "limit_strain_warp": "50 %",)") + "}], " +
+                      with(fabric, "LIMIT", "") + R"(,
+      "human": {"manikin": "male_p50", "motion": {"stand": {"duration": "0.02 s"}}}, "contact": {"friction": 0.3},
+      "dressing": {"layer_by_layer": true, "settle": 0}})")));
+  for (const double wider : {1.0, 1.1}) {
+    const std::filesystem::path dir = folder.path() / std::to_string(wider);
+    record(*s, dir, {0, 0.02}, [&](double, const Vec3& p) { return Vec3{wider * p.x, wider * p.y, p.z}; });
+    Measured m;
+    measureGirths(*s, RecordingReader(dir), m);
+    ASSERT_EQ(m.too_short.size(), wider > 1 ? 1u : 0u);
+    if (m.too_short.empty()) continue;
+    EXPECT_EQ(m.too_short[0].garment, "woven");
+    for (const Girth& g : m.too_short[0].at) EXPECT_NEAR(g.worn_m, wider * g.rest_m, 0.02 * g.rest_m);  // the panels bend
+    const ReportInput page = reportInput(*s, m, {}, "", {});
+    EXPECT_TRUE(std::any_of(page.warnings.begin(), page.warnings.end(), [](const std::string& w) {
+      return w.starts_with("Garment \"woven\" does not fit: at a height of ");
+    }));
   }
 }
 
