@@ -55,6 +55,7 @@ std::string exhibitOf(const Exhibit& e) {
       e.no_page.empty() ? element("a", escape(e.title), " href=\"" + report + "\"") : escape(e.title);
   std::string words = element("h3", title);
   const Question q = questionOf(e.description);
+  if (q.text.empty()) words += element("p", "This case has no description.", " class=\"question\"");
   if (!q.text.empty()) words += element("p", prose(q.text), " class=\"question\"");
   if (!e.failed.empty())
     words += element("p", element("b", "The run failed:") + escape(" " + e.failed), " class=\"alarm\"");

@@ -38,7 +38,7 @@ def cases():
 
 def exhibits(page):
     """Of each: the text that stands on the page."""
-    return {name: html.unescape(re.sub(r"<[^>]*>", " ", body))
+    return {name: html.unescape(re.sub(r"<[^>]*>", "", body))
             for name, body in re.findall(r'<article class="exhibit" id="case_([^"]*)">(.*?)</article>', page, re.S)}
 
 
