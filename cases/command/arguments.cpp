@@ -511,12 +511,10 @@ void addVerify(CLI::App& app, verify::Options& o) {
       "Exit status: 0 all references passed; 1 some failed; 2 something in the input is wrong.");
 }
 
-/// How much runs at once; of any options that have both.
+/// How much runs at once, of options that have both; `gpu`: what 0 jobs mean there.
 template <class Options>
-static void addParallel(CLI::App& command, Options& o) {
-  command
-      .add_option("--jobs", o.jobs,
-                  "Runs at a time; 0 for as many as there are threads, on a GPU for 16 as far as its memory goes [0]")
+static void addParallel(CLI::App& command, Options& o, const std::string& gpu = "") {
+  command.add_option("--jobs", o.jobs, "Runs at a time; 0 for as many as there are threads" + gpu + " [0]")
       ->type_name("N")
       ->check(CLI::Range(0, 4096).description(""));
   command.add_option("--threads", o.threads, "Threads of all runs together, 0 for as many as the machine has [0]")
@@ -525,7 +523,7 @@ static void addParallel(CLI::App& command, Options& o) {
 }
 
 static void addJobs(CLI::App& command, study::Options& o) {
-  addParallel(command, o);
+  addParallel(command, o, ", on a GPU for 16 as far as its memory goes");
   command.add_flag("--resume", o.resume,
                    "Keeps runs that are done with the same case, continues those that were interrupted, and runs the "
                    "others; without it all run again");

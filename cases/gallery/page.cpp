@@ -26,6 +26,7 @@ nav.sorts { display:flex; flex-wrap:wrap; gap:6px 18px; margin:18px 0 0; } nav.s
 .exhibit .words { padding:12px 16px 14px; display:flex; flex-direction:column; flex:1; gap:8px; } .exhibit p { margin:0; } .exhibit h3 { margin:0; }
 .exhibit .question { color:var(--soft); } .exhibit .answer { font-weight:600; } .exhibit .file { margin-top:auto; }
 .exhibit .alarm, .exhibit .notice { font-size:.9rem; font-weight:400; padding:6px 10px; } .exhibit .alarm b { font-weight:600; }
+ul.assumptions { overflow-wrap:anywhere; }
 @media print { .gallery { grid-template-columns:repeat(3,1fr); } .exhibit { break-inside:avoid; } }
 )css";
 
@@ -130,11 +131,11 @@ std::string formatGallery(const std::vector<Exhibit>& exhibits, const std::vecto
   }
   if (!left_out.empty()) {
     link("left_out", "Not shown", left_out.size());
-    Table table{"Files of the library that are not shown", "", {"file", "what it is"}, {}};
-    for (const auto& [file, why] : left_out) table.rows.push_back({TableCell(file.string()), TableCell(why)});
-    body += pageSectionOf(
-        "left_out", "Not shown", "What else is in the library, and why it has no place above.",
-        element("details", element("summary", fmt::format("{} files", left_out.size())) + tableOf(table)));
+    std::string files;
+    for (const auto& [file, why] : left_out) files += element("li", escape(file.string() + ": " + why));
+    body += pageSectionOf("left_out", "Not shown", "What else is in the library, and why it has no place above.",
+                          element("details", element("summary", fmt::format("{} files", left_out.size())) +
+                                                 element("ul", files, " class=\"assumptions\"")));
   }
   return pageOf("Gallery",
                 "Each case with its picture, what it asks or shows, and its answer. A title leads to the report.",

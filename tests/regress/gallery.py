@@ -77,10 +77,11 @@ def fits(page):
         for width in WIDTHS:
             b.size(width, 900)
             b.open(page)
+            b.evaluate("document.querySelectorAll('details').forEach(d => d.open = true)")
             check(not b.errors() and not b.requests(), f"{width}: {b.errors()} {b.requests()}")
             wide = b.evaluate("document.documentElement.scrollWidth - innerWidth")
             check(wide <= 0, f"at {width} the page is {wide} px wider than its window")
-            cut = b.evaluate("""[...document.querySelectorAll('.exhibit *')].filter(e => e.scrollWidth > e.clientWidth + 1 &&
+            cut = b.evaluate("""[...document.querySelectorAll('main *')].filter(e => e.scrollWidth > e.clientWidth + 1 &&
                 getComputedStyle(e).display !== 'inline').map(e => e.className + ': ' + e.textContent)""")
             check(not cut, f"at {width} text is cut: {cut}")
         order = b.evaluate("[...document.querySelectorAll('a[href]')].map(a => a.getBoundingClientRect().top + scrollY)")
@@ -112,6 +113,18 @@ def short(folder):
     check("A plate is bent." in shown["plate"] and "Its holes" not in shown["plate"], shown["plate"])
     check("Cloth &lt;falls&gt; &amp; flies" in page, "a title is not escaped")
     check(" failed" not in page, "something is said to have failed")
+
+    # The same cases as a library: all are done, and what is no case is listed.
+    library = folder / "library"
+    (library / "cards").mkdir(parents=True)
+    for file in files:
+        (library / file).write_text((folder / file).read_text())
+    (library / "cards/a_card_whose_name_is_rather_long_for_a_telephone.card.json").write_text("{}")
+    (library / "notes.txt").write_text("mine")
+    done = run("gallery", "--library", library, "-o", out, "--threads", 1)
+    check(done.returncode == 0 and "5 of 5 are done already" in done.stdout, done.stdout + done.stderr)
+    page, _ = shows_each(out, names)
+    check("notes.txt: no case" in page and "telephone.card.json: a fabric card" in page, "what is no case is not listed")
     fits(out / "gallery.html")
 
     # Nothing runs again; a case that was changed does, and only that; what was cut off goes on.

@@ -57,7 +57,7 @@ TEST(Gallery, ThePageSaysWhatFailsAndWhatIsMissing) {
   const std::string page = formatGallery({doubtful, failed, bare}, {{"cards/a.card.json", "a fabric card"}});
   for (const char* what : {"1 of 9 checks fails: energy is lost.", "1 of 3 failed: <a href=\"#case_failed_one\">",
                            "The run failed:", "the step is &lt;too&gt; small", "No picture: its run left no report.",
-                           "No picture: its report begins with none.", "cards/a.card.json", "a fabric card"})
+                           "No picture: its report begins with none.", "cards/a.card.json: a fabric card"})
     EXPECT_TRUE(has(page, what)) << what;
   EXPECT_FALSE(has(page, "failed_one/report.html")) << "a link to nothing";
 }
