@@ -42,7 +42,7 @@ def kept(folder, kind, words, said, above, text):
         check((folder / words).is_file(), f"{words} is missing")
     elif kind == "says":
         check(words in " ".join(said.split()), f"{words!r} is not said: {said[-2000:]}")
-        check(words.split(":")[-1].strip() in text.replace("`", ""), f"the text does not show {words!r}")
+        check(words.split(":")[-1].strip() in " ".join(text.replace("`", "").split()), f"the text does not show {words!r}")
     else:
         file, path, sign, number, within = re.fullmatch(r"(\S+) (.+) ([=<>]) (\S+)(?: within (\S+))?", words).groups()
         value, bound = at(json.loads((folder / file).read_text()), path), float(number)
