@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "analysis/ticks.hpp"
 
@@ -49,6 +52,24 @@ std::string escape(std::string_view text) {
       default:
         out += c;
     }
+  return out;
+}
+
+std::string textOf(std::string_view html) {
+  static constexpr std::pair<std::string_view, char> entities[]{
+      {"&amp;", '&'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&quot;", '"'}, {"&#39;", '\''}};
+  std::string out;
+  for (std::size_t i = 0; i < html.size();) {
+    if (html[i] == '<') {
+      const std::size_t end = html.find('>', i);
+      i = end == std::string_view::npos ? html.size() : end + 1;
+      continue;
+    }
+    const auto* entity = std::find_if(std::begin(entities), std::end(entities),
+                                      [&](const auto& e) { return html.substr(i).starts_with(e.first); });
+    out += entity == std::end(entities) ? html[i] : entity->second;
+    i += entity == std::end(entities) ? 1 : entity->first.size();
+  }
   return out;
 }
 

@@ -9,6 +9,9 @@ namespace gambeson::html {
 /// & < > " ' as entities, for text and for attribute values in quotes.
 std::string escape(std::string_view text);
 
+/// The text of HTML that `escape` and `element` made: without its tags, entities as what they stand for.
+std::string textOf(std::string_view html);
+
 /// Escaped text in which a number and its unit stay on one line.
 std::string prose(const std::string& text);
 

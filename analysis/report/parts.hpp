@@ -16,8 +16,9 @@ std::string figureOf(const Picture& picture);
 /// A section with a heading; `lead` is text, `body` HTML.
 std::string pageSectionOf(const std::string& id, const std::string& title, const std::string& lead,
                           const std::string& body);
-/// A whole page; `summary` is text for search and previews, `body` HTML; `viewed`: it has a viewer (viewerSection).
+/// A whole page; `summary` is text for search and previews, `body` HTML; `viewed`: it has a viewer (viewerSection);
+/// `style`: rules of its own.
 std::string pageOf(const std::string& title, const std::string& description, const std::string& summary,
-                   const std::string& body, bool viewed = false);
+                   const std::string& body, bool viewed = false, const std::string& style = "");
 
 }  // namespace gambeson

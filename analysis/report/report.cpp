@@ -233,14 +233,14 @@ std::string pageSectionOf(const std::string& id, const std::string& title, const
 }
 
 std::string pageOf(const std::string& title, const std::string& description, const std::string& summary,
-                   const std::string& body, bool viewed) {
+                   const std::string& body, bool viewed, const std::string& style) {
   const std::string head =
       std::string(
           "<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
           "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
           "'unsafe-inline'; script-src 'unsafe-inline'\">\n") +
       "<meta name=\"description\" content=\"" + escape(summary) + "\">\n" + element("title", escape(title)) +
-      element("style", report::kStyle) + (viewed ? element("style", viewerStyle()) : "");
+      element("style", report::kStyle + style) + (viewed ? element("style", viewerStyle()) : "");
   return "<!DOCTYPE html>\n" +
          element(
              "html",

@@ -511,15 +511,19 @@ void addVerify(CLI::App& app, verify::Options& o) {
       "Exit status: 0 all references passed; 1 some failed; 2 something in the input is wrong.");
 }
 
-static void addJobs(CLI::App& command, study::Options& o) {
-  command
-      .add_option("--jobs", o.jobs,
-                  "Runs at a time; 0 for as many as there are threads, on a GPU for 16 as far as its memory goes [0]")
+/// How much runs at once, of options that have both; `gpu`: what 0 jobs mean there.
+template <class Options>
+static void addParallel(CLI::App& command, Options& o, const std::string& gpu = "") {
+  command.add_option("--jobs", o.jobs, "Runs at a time; 0 for as many as there are threads" + gpu + " [0]")
       ->type_name("N")
       ->check(CLI::Range(0, 4096).description(""));
   command.add_option("--threads", o.threads, "Threads of all runs together, 0 for as many as the machine has [0]")
       ->type_name("N")
       ->check(CLI::Range(0, 4096).description(""));
+}
+
+static void addJobs(CLI::App& command, study::Options& o) {
+  addParallel(command, o, ", on a GPU for 16 as far as its memory goes");
   command.add_flag("--resume", o.resume,
                    "Keeps runs that are done with the same case, continues those that were interrupted, and runs the "
                    "others; without it all run again");
@@ -565,6 +569,30 @@ void addBatch(CLI::App& app, StudyArguments& a) {
   command.footer(
       "Example:\n  gambeson batch cases/library/flag.json cases/library/stack_mixed.json --out results/cloth\n\n"
       "Exit status: 0 all cases are done; 1 some failed; 2 something in the input is wrong, and nothing ran.");
+}
+
+void addGallery(CLI::App& app, gallery::Options& o) {
+  CLI::App& command = *app.add_subcommand(
+      "gallery", "Makes a page of many cases: of each its picture, its question, its answer, and a link to its report");
+  command.add_option("CASE", o.files, "Case and study files (JSON) [all of the library]")->type_name("");
+  command.add_option("-o,--out", o.out, "Folder for the page and the results")->type_name("DIR")->required();
+  command
+      .add_option(
+          "--library", o.library,
+          "Folder of cases, where none is named [share/gambeson/library or cases/library, beside the program or "
+          "above it]")
+      ->type_name("DIR");
+  addParallel(command, o);
+  command.footer(
+      "Runs what is not done yet, each in DIR/NAME: results of the same case are taken as they are, and runs that "
+      "were\n"
+      "interrupted go on. Leaves DIR/gallery.html (start here), logs/ and a folder for each. The whole library takes\n"
+      "hours.\n\n"
+      "Examples:\n"
+      "  gambeson gallery cases/library/cantilever.json cases/library/cell_twill.json -o results/gallery\n"
+      "  gambeson gallery -o results/library --jobs 2                              the whole library\n\n"
+      "Exit status: 0 all are done; 1 some failed, and the page shows why beside the others; 2 something in the input "
+      "is\nwrong, and nothing ran.");
 }
 
 void addTogether(CLI::App& app, TogetherArguments& a) {

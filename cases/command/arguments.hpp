@@ -9,6 +9,7 @@
 
 #include "cases/command/new_case.hpp"
 #include "cases/fabric/run.hpp"
+#include "cases/gallery/gallery.hpp"
 #include "cases/homogenise/homogenise.hpp"
 #include "cases/pattern/import.hpp"
 #include "cases/study/run.hpp"
@@ -96,6 +97,7 @@ void addHomogenise(CLI::App& app, HomogeniseArguments& a);
 void addVerify(CLI::App& app, verify::Options& o);
 void addStudy(CLI::App& app, StudyArguments& a);
 void addBatch(CLI::App& app, StudyArguments& a);
+void addGallery(CLI::App& app, gallery::Options& o);
 /// --csv, of a command that leaves tables.
 void addTables(CLI::App& command, std::string& csv);
 /// What `study` starts; no help names them.

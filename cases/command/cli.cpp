@@ -20,6 +20,7 @@
 #include "cases/command/documents.hpp"
 #include "cases/fabric/run.hpp"
 #include "cases/film/film.hpp"
+#include "cases/gallery/gallery.hpp"
 #include "cases/input/message.hpp"
 #include "cases/input/mistakes.hpp"
 #include "cases/input/overrides.hpp"
@@ -396,6 +397,8 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   StudyArguments study_arguments, batch_arguments;
   addStudy(app, study_arguments);
   addBatch(app, batch_arguments);
+  gallery::Options gallery_options;
+  addGallery(app, gallery_options);
   TogetherArguments together_arguments;
   addTogether(app, together_arguments);
   FinishOptions finish_options;
@@ -416,12 +419,11 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
   if (const std::string command = argv[1];
       !command.starts_with('-') &&
       app.get_subcommands([&](const CLI::App* a) { return a->get_name() == command; }).empty()) {
-    failure(fmt::format(
-        "gambeson: there is no command \"{}\"; there are new, run, dress, check, draft, render, report, export, verify, "
-        "study, "
-        "batch, fabric, import and homogenise (see "
-        "gambeson --help)",
-        command.substr(0, 80)));
+    failure(
+        fmt::format("gambeson: there is no command \"{}\"; there are new, run, dress, check, draft, render, report, "
+                    "export, verify, "
+                    "study, batch, gallery, fabric, import and homogenise (see gambeson --help)",
+                    command.substr(0, 80)));
     return bad_input;
   }
   const auto perform = [&] {
@@ -456,14 +458,17 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
              {verify_options.results, "--results"},
              {study_arguments.file, "STUDY"},
              {study_arguments.options.out, "--out"},
-             {batch_arguments.options.out, "--out"}}) {
+             {batch_arguments.options.out, "--out"},
+             {gallery_options.library, "--library"},
+             {gallery_options.out, "--out"}}) {
       checkPath(path, option);
       const std::string_view name = option;
       if (!path.empty() && (name == "CASE" || name == "STUDY" || name == "RESULTS" || name == "CARD" ||
                             name == "CELL" || name == "FILE"))
         subject = path.string();
     }
-    for (const std::filesystem::path& file : batch_arguments.cases) checkPath(file, "CASE");
+    for (const auto* files : {&batch_arguments.cases, &gallery_options.files})
+      for (const std::filesystem::path& file : *files) checkPath(file, "CASE");
     for (const std::filesystem::path& folder : render_arguments.request.results) {
       checkPath(folder, "RESULTS");
       subject = folder.string();
@@ -492,6 +497,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
     }
     if (app.got_subcommand("results")) return finishApart(finish_options);
     if (app.got_subcommand("batch")) return batchCommand(batch_arguments, out);
+    if (app.got_subcommand("gallery")) return gallery::runGallery(gallery_options, out);
     checkEnding(report_options.html, "--output", {".html", ".htm"});
     checkOutput(report_options.html, "--output", recordedFiles(report_options.results));
     if (holdsCell(report_options.results)) return reportCellResults(report_options);

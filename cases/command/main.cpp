@@ -55,7 +55,8 @@ int othersRunning(int cores) {
 void waitPatiently(int argc, char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
   // These only start others, which ask for themselves.
-  if (argc > 1 && (std::string_view(argv[1]) == "study" || std::string_view(argv[1]) == "batch")) return;
+  for (const char* starter : {"study", "batch", "gallery"})
+    if (argc > 1 && std::string_view(argv[1]) == starter) return;
   cpu_set_t mine;
   const int cores = sched_getaffinity(0, sizeof(mine), &mine) == 0 ? std::max(1, CPU_COUNT(&mine)) : 1;
   const bool free = threadsAsked(argc, argv, cores) + othersRunning(cores) <= cores;

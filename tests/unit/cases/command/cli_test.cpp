@@ -28,7 +28,7 @@ Outcome gambeson(const Folder& folder, const std::string& arguments) {
 TEST(Command, HelpForNewcomers) {
   const Folder folder;
   for (const char* subcommand :
-       {"", "new ", "run ", "check ", "render ", "report ", "verify ", "study ", "batch ", "fabric "}) {
+       {"", "new ", "run ", "check ", "render ", "report ", "verify ", "study ", "batch ", "gallery ", "fabric "}) {
     const Outcome o = gambeson(folder, std::string(subcommand) + "--help");
     SCOPED_TRACE(subcommand);
     EXPECT_EQ(o.status, 0);
@@ -41,8 +41,8 @@ TEST(Command, HelpForNewcomers) {
 /// 0 for help, 2 for what is wrong in the input, which is said; whatever the command.
 TEST(Command, StatusesAreAlike) {
   const Folder folder;
-  for (const char* subcommand :
-       {"run", "dress", "check", "draft", "render", "report", "export", "verify", "study", "batch", "fabric"}) {
+  for (const char* subcommand : {"run", "dress", "check", "draft", "render", "report", "export", "verify", "study",
+                                 "batch", "gallery", "fabric"}) {
     SCOPED_TRACE(subcommand);
     EXPECT_EQ(gambeson(folder, std::string(subcommand) + " --help").status, 0);
     for (const char* wrong : {"--nonsense", "absent.json", ""}) {
@@ -68,9 +68,10 @@ TEST(Command, ShortsThatReachTooFarAreRefusedByCheck) {
 
 TEST(Command, CheckAcceptsTheLibrary) {
   const Folder folder;
-  for (const char* name : {"shorts_walk", "shorts_stairs", "sleeve_flex", "inclined_plane", "sphere_drape", "flag",
-                           "cantilever", "roll_up", "hinged_roof", "plate_modes", "flag_dynamic", "wong_ball",
-                           "wong_funnel", "wong_dancer", "wong_reef_knot", "wong_bowline", "man_plate", "man_roll_up"}) {
+  for (const char* name :
+       {"shorts_walk", "shorts_stairs", "sleeve_flex", "inclined_plane", "sphere_drape", "flag", "cantilever",
+        "roll_up", "hinged_roof", "plate_modes", "flag_dynamic", "wong_ball", "wong_funnel", "wong_dancer",
+        "wong_reef_knot", "wong_bowline", "man_plate", "man_roll_up"}) {
     const Outcome o = gambeson(folder, "check '" GAMBESON_SOURCE_DIR "/cases/library/" + std::string(name) + ".json'");
     EXPECT_EQ(o.status, 0) << o.err;
     EXPECT_NE(o.out.find("valid"), std::string::npos);
@@ -147,7 +148,7 @@ TEST(Command, BadInputExitsWithTwo) {
       {"", "gambeson run cases/library/shorts_walk.json"},
       {"dance",
        "there is no command \"dance\"; there are new, run, dress, check, draft, render, report, export, verify, study, "
-       "batch, fabric, import and homogenise"},
+       "batch, gallery, fabric, import and homogenise"},
       {"run", "CASE"},
       {"run example.json --fast", "--fast"},
       {"run example.json --threads -1", "--threads"},
