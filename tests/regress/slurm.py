@@ -3,8 +3,8 @@
 
     slurm.py [GAMBESON] [--kills N] [--only KIND]    each kind N times: scancel, requeue, loss (of the node); 1 where N is not given
 
-Skipped where slurm-wlm or munge is not installed, and for others than root. The moments are spread over the study: the
-k-th of N comes when about k/N of all checkpoints of its variants are on the disk.
+Skipped where slurm-wlm or munge is not installed, and for others than root. The N moments are spread over the study by
+how many of all checkpoints of its variants are on the disk.
 """
 
 import csv
@@ -200,13 +200,15 @@ def main():
             if only not in (None, kind.__name__):
                 continue
             reached, begin = [], time.monotonic()
-            for k in range(kills):
+            parts = [0.9 * (k + chance.random()) / kills for k in range(kills)]
+            chance.shuffle(parts)
+            for k, part in enumerate(parts):
                 out = folder / f"{kind.__name__}{k}"
                 written("study", file, "--out", out, *QUEUE)
-                part = 0.9 * (k + chance.random()) / kills
                 reached.append(kind(node, file, out, part, k))
                 compared(out, whole)
                 shutil.rmtree(out)
+                print(f"{kind.__name__} {k + 1} of {kills}, at {reached[-1]} checkpoints: the same", flush=True)
             print(f"{kind.__name__}: {kills} times, all ended with the bytes of the local engine; of {sum(counts.values())} checkpoints there "
                   f"were {reached}; {time.monotonic() - begin:.0f} s", flush=True)
 

@@ -169,7 +169,7 @@ TEST(Command, BadInputExitsWithTwo) {
       {"report results", "--output"},
       {"batch example.json --out B --time 60", "--time: \"60\" is for Slurm; allowed: with --engine slurm"},
       {"batch example.json --out B --engine slurm --mem 8GB", "--mem: \"8GB\" cannot be passed on; allowed: "},
-      {"batch example.json --out B --compare --resume", "--compare excludes --resume"},
+      {"batch example.json --out B --compare --resume", "--resume excludes --compare"},
       {"batch example.json --out B --compare", "--compare: "},
   }};
   for (const auto& [arguments, message] : cases) {
