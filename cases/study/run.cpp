@@ -85,7 +85,12 @@ void checkFolder(const Study& s, const Options& o, const std::vector<Stand>& sta
   for (const Variant& v : s.variants) std::visit([&](const auto& c) { inputs.push_back(c.file); }, v.definition);
   std::sort(inputs.begin(), inputs.end());
   inputs.erase(std::unique(inputs.begin(), inputs.end()), inputs.end());
-  for (const std::string_view name : files::written) requireFreeOf(o.out / name, inputs, "--out");
+  // What compares leaves the scripts as they are, also those that somebody changed.
+  const auto kept = [&](std::string_view name) {
+    return o.compare && (name == files::script || name == files::compare_script || name == files::submit);
+  };
+  for (const std::string_view name : files::written)
+    if (!kept(name)) requireFreeOf(o.out / name, inputs, "--out");
   for (const std::string_view name : files::folders) requireFolder(o.out / name);
   for (std::size_t i = 0; i < s.variants.size(); ++i) {
     const Variant& v = s.variants[i];
