@@ -5,6 +5,7 @@ has two processors. A node that is silent is given up after seconds, as a cluste
 daemons are killed with whatever they started.
 """
 
+import ctypes
 import os
 import pathlib
 import secrets
@@ -63,6 +64,12 @@ def missing():
     if os.geteuid() != 0:
         lacking.append("root")
     return lacking
+
+
+def die_with_parent():
+    """Of a daemon, before it starts: a test that is killed leaves none."""
+    PR_SET_PDEATHSIG = 1
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def free_port():
@@ -130,7 +137,7 @@ class SlurmNode:
     def daemon(self, program, *arguments):
         log = open(self.folder / f"{program}.out", "ab")
         self.daemons[program] = subprocess.Popen([program, *arguments], env=self.environment, stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                                                 start_new_session=True)
+                                                 start_new_session=True, preexec_fn=die_with_parent)
 
     def start_node(self):
         self.daemon("slurmd", "-D", "-N", self.host)
