@@ -511,19 +511,45 @@ void addVerify(CLI::App& app, verify::Options& o) {
       "Exit status: 0 all references passed; 1 some failed; 2 something in the input is wrong.");
 }
 
-/// How much runs at once, of options that have both; `gpu`: what 0 jobs mean there.
+static void addSlurm(CLI::App& command, StudyArguments& a) {
+  command
+      .add_option("--engine", a.engine,
+                  "local: runs here; slurm: runs nothing and writes scripts for Slurm into DIR, an array of jobs "
+                  "(study.slurm; with --device cuda each asks for a GPU), a job that compares (compare.slurm), and "
+                  "submit.sh, which hands both in [local]")
+      ->type_name("ENGINE")
+      ->check(CLI::IsMember({"local", "slurm"}).description(""));
+  const auto add = [&](const char* option, std::optional<std::string>& text, const char* type, const char* what) {
+    command.add_option(option, text, what)->type_name(type);
+  };
+  study::Queue& q = a.options.queue;
+  add("--time", q.time, "TIME", "With slurm: time that each job may take, such as 02:30:00 or 1-12 (days-hours)");
+  add("--mem", q.memory, "SIZE", "With slurm: memory of each job, such as 8G");
+  add("--partition", q.partition, "NAME", "With slurm: partition of the cluster");
+  add("--job-name", q.job_name, "NAME", "With slurm: name of the jobs; the one that compares is NAME_compare");
+  CLI::Option* compare = command.add_flag("--compare", a.options.compare,
+                                          "Runs nothing: compares what is done in DIR, and lists the others as failed");
+  for (const char* other : {"--engine", "--jobs", "--resume"}) compare->excludes(command.get_option(other));
+}
+
+/// How much runs at once, of options that have both; `elsewhere`, `each`: what 0 jobs mean on a GPU and with Slurm, and
+/// what threads with Slurm.
 template <class Options>
-static void addParallel(CLI::App& command, Options& o, const std::string& gpu = "") {
-  command.add_option("--jobs", o.jobs, "Runs at a time; 0 for as many as there are threads" + gpu + " [0]")
+static void addParallel(CLI::App& command, Options& o, const std::string& elsewhere = "",
+                        const std::string& each = "") {
+  command.add_option("--jobs", o.jobs, "Runs at a time; 0 for as many as there are threads" + elsewhere + " [0]")
       ->type_name("N")
       ->check(CLI::Range(0, 4096).description(""));
-  command.add_option("--threads", o.threads, "Threads of all runs together, 0 for as many as the machine has [0]")
+  command
+      .add_option("--threads", o.threads,
+                  "Threads of all runs together, 0 for as many as the machine has" + each + " [0]")
       ->type_name("N")
       ->check(CLI::Range(0, 4096).description(""));
 }
 
 static void addJobs(CLI::App& command, study::Options& o) {
-  addParallel(command, o, ", on a GPU for 16 as far as its memory goes");
+  addParallel(command, o, ", on a GPU for 16 as far as its memory goes, with slurm for as many as the cluster starts",
+              "; with slurm those of each job, 0 for one");
   command.add_flag("--resume", o.resume,
                    "Keeps runs that are done with the same case, continues those that were interrupted, and runs the "
                    "others; without it all run again");
@@ -538,12 +564,7 @@ void addStudy(CLI::App& app, StudyArguments& a) {
       ->type_name("DIR");
   addJobs(command, a.options);
   addDevice(command, a.device);
-  command
-      .add_option("--engine", a.engine,
-                  "local: runs here; slurm: writes DIR/study.slurm, an array of jobs for sbatch (with "
-                  "--device cuda each asks for a GPU), and runs nothing [local]")
-      ->type_name("ENGINE")
-      ->check(CLI::IsMember({"local", "slurm"}).description(""));
+  addSlurm(command, a);
   command.add_flag("--check", a.check, "Only checks the study and all its variants, and lists them");
   command.footer(
       "Leaves in DIR: report.html (start here), study.json (all numbers), variants.csv (a row for each variant), "
@@ -553,7 +574,9 @@ void addStudy(CLI::App& app, StudyArguments& a) {
       "each variant.\n\n"
       "Examples:\n"
       "  gambeson study cases/library/shorts_thickness.study.json\n"
-      "  gambeson study my.study.json --out results/mine --jobs 4 --resume\n\n"
+      "  gambeson study my.study.json --out results/mine --jobs 4 --resume\n"
+      "  gambeson study my.study.json --out results/mine --engine slurm --threads 2 --time 02:30:00 --mem 8G\n"
+      "  bash results/mine/submit.sh            what is left goes on with the same two lines and --resume\n\n"
       "Exit status: 0 all variants are done; 1 some failed, and the report compares the others; 2 something in the "
       "input\n"
       "of any variant is wrong, and nothing ran.");
@@ -566,8 +589,11 @@ void addBatch(CLI::App& app, StudyArguments& a) {
   command.add_option("--out", a.options.out, "Folder for the results")->type_name("DIR")->required();
   addJobs(command, a.options);
   addDevice(command, a.device);
+  addSlurm(command, a);
   command.footer(
-      "Example:\n  gambeson batch cases/library/flag.json cases/library/stack_mixed.json --out results/cloth\n\n"
+      "Examples:\n"
+      "  gambeson batch cases/library/flag.json cases/library/stack_mixed.json --out results/cloth\n"
+      "  gambeson batch a.json b.json --out results/ab --engine slurm --time 60 && bash results/ab/submit.sh\n\n"
       "Exit status: 0 all cases are done; 1 some failed; 2 something in the input is wrong, and nothing ran.");
 }
 

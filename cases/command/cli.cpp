@@ -179,7 +179,7 @@ void checkDevice(const study::Study& s, const study::Options& o, bool automatic)
       std::visit([&](const auto& c) { requireCarried(c, device); }, v.definition);
   };
   require(o.device);
-  if (o.slurm) return;  // where the jobs run there may be another GPU
+  if (o.slurm || o.compare) return;  // where the jobs run there may be another GPU
   requireDevice(o.device);
   if (!automatic) return;
   try {
@@ -190,14 +190,20 @@ void checkDevice(const study::Study& s, const study::Options& o, bool automatic)
   nameGpu();
 }
 
+/// What `study` and `batch` are told alike.
+void takeOptions(StudyArguments& a, const std::string& csv) {
+  a.options.slurm = a.engine == "slurm";
+  a.options.device = deviceOf(a.device);
+  a.options.csv = csv;
+  study::checkQueue(a.options.queue, a.options.slurm);
+}
+
 int studyCommand(StudyArguments& a, std::ostream& out) {
   if (a.options.out.empty()) {
     std::string name = a.file.stem().string();
     if (name.ends_with(".study")) name.resize(name.size() - 6);
     a.options.out = std::filesystem::path("results") / name;
   }
-  a.options.slurm = a.engine == "slurm";
-  a.options.device = deviceOf(a.device);
   const study::Study s = study::readStudy(a.file);
   checkDevice(s, a.options, a.device == "auto");
   if (!a.check) return study::runStudy(s, a.options, out);
@@ -210,7 +216,6 @@ int studyCommand(StudyArguments& a, std::ostream& out) {
 }
 
 int batchCommand(StudyArguments& a, std::ostream& out) {
-  a.options.device = deviceOf(a.device);
   const study::Study s = study::batchOf(a.cases);
   checkDevice(s, a.options, a.device == "auto");
   return study::runStudy(s, a.options, out);
@@ -490,6 +495,7 @@ int runCommand(int argc, const char* const* argv, std::ostream& out, std::ostrea
       return homogeniseCell(homogenise_arguments, out);
     }
     if (app.got_subcommand("verify")) return verify::runVerify(verify_options, out);
+    for (StudyArguments* a : {&study_arguments, &batch_arguments}) takeOptions(*a, csv);
     if (app.got_subcommand("study")) return studyCommand(study_arguments, out);
     if (app.got_subcommand("together")) {
       together_arguments.options.device = deviceOf(together_arguments.device);

@@ -19,6 +19,7 @@
 #include "cases/runs/progress.hpp"
 #include "cases/runs/results_folder.hpp"
 #include "cases/runs/run_identity.hpp"
+#include "cases/runs/run_log.hpp"
 #include "cases/runs/shell_word.hpp"
 #include "cases/study/compare.hpp"
 #include "cases/study/files.hpp"
@@ -58,7 +59,8 @@ std::filesystem::path logFile(const std::filesystem::path& out, const Variant& v
 std::vector<Stand> standsOf(const Study& s, const Options& o) {
   std::vector<Stand> stands;
   for (const Variant& v : s.variants)
-    stands.push_back(o.resume ? standOf(o.out / v.folder, v.identity, o.device) : Stand::fresh);
+    stands.push_back(o.resume || o.compare ? standOf(o.out / v.folder, v.identity, o.device, o.slurm || o.compare)
+                                           : Stand::fresh);
   return stands;
 }
 
@@ -83,7 +85,12 @@ void checkFolder(const Study& s, const Options& o, const std::vector<Stand>& sta
   for (const Variant& v : s.variants) std::visit([&](const auto& c) { inputs.push_back(c.file); }, v.definition);
   std::sort(inputs.begin(), inputs.end());
   inputs.erase(std::unique(inputs.begin(), inputs.end()), inputs.end());
-  for (const std::string_view name : files::written) requireFreeOf(o.out / name, inputs, "--out");
+  // What compares leaves the scripts as they are, also those that somebody changed.
+  const auto kept = [&](std::string_view name) {
+    return o.compare && (name == files::script || name == files::compare_script || name == files::submit);
+  };
+  for (const std::string_view name : files::written)
+    if (!kept(name)) requireFreeOf(o.out / name, inputs, "--out");
   for (const std::string_view name : files::folders) requireFolder(o.out / name);
   for (std::size_t i = 0; i < s.variants.size(); ++i) {
     const Variant& v = s.variants[i];
@@ -108,8 +115,75 @@ std::vector<std::string> commandOf(const Variant& v, const Options& o, int threa
                                    std::to_string(threads),
                                    "--device",
                                    wordOf(o.device)};
-  if (stand == Stand::interrupted) command.push_back("--resume");
+  if (stand == Stand::interrupted && goesOn(v)) command.push_back("--resume");
   return command;
+}
+
+/// A job of Slurm goes on from what stands in its folder, whenever and however often it starts: an earlier run that is
+/// not to be gone on from is taken away before.
+void clearForJob(const std::filesystem::path& folder, const Variant& v, Stand stand) {
+  std::error_code error;
+  if (!std::filesystem::exists(folder, error)) return;
+  const ResultsFolder held(folder, inputsOf(v.definition), stand == Stand::interrupted);
+  if (stand == Stand::interrupted) return;
+  removeEarlierResults(folder);
+  for (const std::filesystem::path& file : recordedFiles(folder)) removeOwnFile(file);  // the layout before segments
+}
+
+void writeForSlurm(const Study& s, const Options& o, const std::vector<Stand>& stands, std::ostream& out) {
+  const std::size_t to_do = s.variants.size() - static_cast<std::size_t>(std::ranges::count(stands, Stand::done));
+  if (to_do == 0) {
+    out << "all variants are done: the same command with --compare, in place of --engine and what is Slurm's, compares "
+           "them\n";
+    return;
+  }
+  for (std::size_t i = 0; i < s.variants.size(); ++i)
+    if (stands[i] != Stand::done) clearForJob(o.out / s.variants[i].folder, s.variants[i], stands[i]);
+  writeOwnFile(o.out / files::script, slurmScript(s, o, stands));
+  claimFile(o.out / files::compare_log);
+  writeOwnFile(o.out / files::compare_script, compareScript(s, o));
+  writeOwnFile(o.out / files::submit, submitScript(o));
+  out << fmt::format("{} of {} variants to do. This hands them to Slurm, and what compares them: bash {}\n", to_do,
+                     s.variants.size(), shellWord((o.out / files::submit).string()));
+}
+
+/// Compares what the runs left; exit status as runStudy.
+int compareRuns(const Study& s, const Options& o, std::vector<Outcome> outcomes,
+                std::chrono::steady_clock::time_point begin, std::ostream& out) {
+  const std::vector<Outcome> ran = outcomes;
+  compareVariants(s, outcomes, o.out);
+  for (std::size_t i = 0; i < outcomes.size(); ++i)
+    if (ran[i].good && !outcomes[i].good)
+      out << fmt::format("FAILED  {}  {}\n", s.variants[i].folder, messageText(outcomes[i].why));
+  std::size_t failures = 0;
+  for (const Outcome& v : outcomes) failures += !v.good;
+  const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (failures > 0) out << fmt::format("{} of {} variants failed: the report says why\n", failures, s.variants.size());
+  out << fmt::format("Report, after {}: {}\n", durationText(wall_s), (o.out / files::report).string());
+  return failures > 0 ? 1 : 0;
+}
+
+/// What became of a variant that a job of Slurm ran, by what the job left.
+Outcome outcomeOf(Stand stand, const std::filesystem::path& log) {
+  std::ifstream stream(log);
+  bool failed = false;
+  for (std::string line; std::getline(stream, line);) failed = failed || line.starts_with("gambeson failed: ");
+  const std::string last = lastMessage(log);
+  // A signal may come to what has left all its results.
+  if (stand == Stand::done && (!failed || last.starts_with("stopped by a signal"))) return {true, ""};
+  if (failed) return {false, last};
+  return {false, last.empty() ? "is not done: nothing stands in its log" : "is not done; its log ends with: " + last};
+}
+
+/// All variants by what stands in the folder, none of which is run.
+int compareOnly(const Study& s, const Options& o, const std::vector<Stand>& stands,
+                std::chrono::steady_clock::time_point begin, std::ostream& out) {
+  std::vector<Outcome> outcomes;
+  for (std::size_t i = 0; i < s.variants.size(); ++i) {
+    outcomes.push_back(outcomeOf(stands[i], logFile(o.out, s.variants[i])));
+    if (!outcomes[i].good) out << fmt::format("FAILED  {}  {}\n", s.variants[i].folder, outcomes[i].why);
+  }
+  return compareRuns(s, o, std::move(outcomes), begin, out);
 }
 
 /// One line for all, and on what is no terminal a line for each variant that ends.
@@ -153,23 +227,27 @@ std::optional<double> tookBefore(const std::filesystem::path& folder, int thread
 
 }  // namespace
 
-Stand standOf(const std::filesystem::path& folder, const std::string& identity, DeviceKind device) {
-  if (closedSegments(folder) == 0) return Stand::fresh;
+bool goesOn(const Variant& v) { return !std::holds_alternative<StructureCase>(v.definition); }
+
+Stand standOf(const std::filesystem::path& folder, const std::string& identity, DeviceKind device, bool elsewhere) {
   std::optional<RunIdentity> recorded;
   try {
-    recorded.emplace(RecordingReader(folder).layout().identity);
+    // Structures may keep no shapes, and so no segments; a segment that is damaged throws.
+    recorded.emplace(closedSegments(folder) > 0 ? RecordingReader(folder).layout().identity
+                                                : readLayout(folder).identity);
   } catch (const InputError&) {
     return Stand::fresh;
   }
   // Cloth whose kernels are the same everywhere says so wherever it runs.
-  const bool anywhere = recorded->kernels == kOneForAll;
+  const bool anywhere = elsewhere || recorded->kernels == kOneForAll;
   const RunIdentity whole(identity, anywhere ? recorded->kernels : widestInstructionSet(), device);
   if (recorded->case_hash == whole.case_hash) requireSameDevice(*recorded, device, folder.string());
   if (*recorded != whole) return Stand::fresh;
   try {
     std::ifstream stream(folder / "summary.json");
     // The page is written last.
-    if (!stream || !std::filesystem::exists(folder / "report.html")) return Stand::interrupted;
+    if (!stream || !std::filesystem::exists(folder / "report.html"))
+      return closedSegments(folder) > 0 ? Stand::interrupted : Stand::fresh;
     const auto j = nlohmann::json::parse(stream);
     if (!j.contains("planned_to_s")) return Stand::done;
     return j.at("recorded_to_s").get<double>() >= j.at("planned_to_s").get<double>() - 1e-9 ? Stand::done
@@ -185,6 +263,9 @@ int runStudy(const Study& s, const Options& chosen, std::ostream& out) {
   const Signals signals;
   o.out = std::filesystem::absolute(o.out).lexically_normal();
   checkPath(o.out, "--out");
+  if (std::error_code error; o.compare && !std::filesystem::is_directory(o.out / files::cases, error))
+    throw InputError({"command line", 0, "--compare"},
+                     fmt::format("{} holds no study; allowed: --out with the folder of one", o.out.string()));
   checkFolder(s, o, standsOf(s, o));
   for (const auto& folder : {o.out, o.out / files::cases, o.out / files::logs}) makeFolder(folder);
   const FolderLock lock(o.out);
@@ -192,6 +273,7 @@ int runStudy(const Study& s, const Options& chosen, std::ostream& out) {
   checkFolder(s, o, stands);  // what another command has left meanwhile
   const int threads = o.threads > 0 ? o.threads : machineThreads();
   useThreads(threads);
+  if (o.compare) return compareOnly(s, o, stands, begin, out);
 
   std::vector<Outcome> outcomes(s.variants.size());
   std::vector<std::size_t> waiting;
@@ -205,15 +287,8 @@ int runStudy(const Study& s, const Options& chosen, std::ostream& out) {
       claimFile(logFile(o.out, v));
     }
   }
-  if (o.slurm && waiting.empty()) {
-    out << "all variants are done: the same command without --engine compares them\n";
-    return 0;
-  }
   if (o.slurm) {
-    writeOwnFile(o.out / files::script, slurmScript(s, o, stands));
-    out << fmt::format(
-        "{0} of {1} variants to do: sbatch {2}\nThen compare: the same command with --resume and without --engine\n",
-        waiting.size(), s.variants.size(), shellWord((o.out / files::script).string()));
+    writeForSlurm(s, o, stands, out);
     return 0;
   }
   // Runs on a GPU wait for it most of the time; what waits for its memory has been built already.
@@ -282,17 +357,7 @@ int runStudy(const Study& s, const Options& chosen, std::ostream& out) {
   if (!whole)
     throw RunError(
         fmt::format("stopped by a signal; what is done stands in {}, and --resume goes on from there", o.out.string()));
-  const std::vector<Outcome> ran = outcomes;
-  compareVariants(s, outcomes, o.out);
-  for (std::size_t i = 0; i < outcomes.size(); ++i)
-    if (ran[i].good && !outcomes[i].good)
-      out << fmt::format("FAILED  {}  {}\n", s.variants[i].folder, messageText(outcomes[i].why));
-  std::size_t failures = 0;
-  for (const Outcome& v : outcomes) failures += !v.good;
-  const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  if (failures > 0) out << fmt::format("{} of {} variants failed: the report says why\n", failures, s.variants.size());
-  out << fmt::format("Report, after {}: {}\n", durationText(wall_s), (o.out / files::report).string());
-  return failures > 0 ? 1 : 0;
+  return compareRuns(s, o, outcomes, begin, out);
 }
 
 }  // namespace gambeson::study

@@ -144,7 +144,7 @@ TEST(Command, BadInputExitsWithTwo) {
   folder.write("unit.json", replaced(example, "\"1 mm\"", "\"1 kg\""));
   folder.write("empty.json", "");
   folder.write("truncated.json", example.substr(0, 300));
-  const std::array<std::pair<std::string, std::string>, 18> cases{{
+  const std::array<std::pair<std::string, std::string>, 22> cases{{
       {"", "gambeson run cases/library/shorts_walk.json"},
       {"dance",
        "there is no command \"dance\"; there are new, run, dress, check, draft, render, report, export, verify, study, "
@@ -167,6 +167,10 @@ TEST(Command, BadInputExitsWithTwo) {
       {"render results -o x.png --time soon", "time: \"soon\""},
       {"render results -o x.png --size 12", "--size"},
       {"report results", "--output"},
+      {"batch example.json --out B --time 60", "--time: \"60\" is for Slurm; allowed: with --engine slurm"},
+      {"batch example.json --out B --engine slurm --mem 8GB", "--mem: \"8GB\" cannot be passed on; allowed: "},
+      {"batch example.json --out B --compare --resume", "--resume excludes --compare"},
+      {"batch example.json --out B --compare", "--compare: "},
   }};
   for (const auto& [arguments, message] : cases) {
     SCOPED_TRACE(arguments);

@@ -33,6 +33,8 @@ std::string kernelsOf(const std::string& lower, const std::string& upper) {
   EXPECT_EQ(runCase(c, {out, 1}), 0);
   EXPECT_EQ(standOf(out, caseIdentity(c)), Stand::done) << lower << ", " << upper;
   EXPECT_EQ(standOf(out, caseIdentity(c) + "0"), Stand::fresh);
+  EXPECT_EQ(standOf(out, caseIdentity(c), DeviceKind::cpu, true), Stand::done);
+  EXPECT_EQ(standOf(out, caseIdentity(c) + "0", DeviceKind::cpu, true), Stand::fresh);
   return readRunFacts(out).kernels;
 }
 

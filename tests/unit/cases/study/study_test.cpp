@@ -193,7 +193,67 @@ TEST(Study, ScriptsForSlurmHaveTheVariantsThatAreNotDone) {
   EXPECT_NE(script.find("--array=0-1%2"), std::string::npos) << script;
   EXPECT_NE(script.find("folders=( thickness_0.5__coarse__rough thickness_0.5__fine__smooth)"), std::string::npos)
       << script;
+  // What is fresh goes on too, when the queue starts it again.
+  EXPECT_NE(script.find("again=( --resume --resume)"), std::string::npos) << script;
+  EXPECT_NE(script.find("#SBATCH --requeue\n"), std::string::npos) << script;
+  for (const char* option : {"--time", "--mem", "--partition", "--job-name"})
+    EXPECT_EQ(script.find(option), std::string::npos) << script;
+}
+
+TEST(Study, StructuresBeginAgainUnderSlurm) {
+  Study s = read(good);
+  s.variants.resize(2);
+  s.variants[1].definition = StructureCase{};
+  const std::string script = slurmScript(s, {}, {Stand::fresh, Stand::interrupted});
   EXPECT_NE(script.find("again=( --resume '')"), std::string::npos) << script;
+}
+
+/// What each job asks for stands in both scripts, above the first command, where sbatch reads it.
+TEST(Study, ScriptsForSlurmAskForWhatIsGiven) {
+  Study s = read(good);
+  s.variants.resize(1);
+  Options o;
+  o.out = "/data/out";
+  o.queue = {"1-12:30", "8G", "long,short", "armour.1"};
+  const std::string runs = slurmScript(s, o, {Stand::fresh}), compares = compareScript(s, o);
+  for (const std::string& script : {runs, compares}) {
+    const std::string head = script.substr(0, script.find("\ngambeson="));
+    for (const char* line : {"\n#SBATCH --time=1-12:30\n", "\n#SBATCH --mem=8G\n", "\n#SBATCH --partition=long,short\n",
+                             "\n#SBATCH --requeue\n"})
+      EXPECT_NE(head.find(line), std::string::npos) << line << script;
+  }
+  EXPECT_NE(runs.find("\n#SBATCH --job-name=armour.1\n"), std::string::npos) << runs;
+  EXPECT_NE(compares.find("\n#SBATCH --job-name=armour.1_compare\n"), std::string::npos) << compares;
+  EXPECT_EQ(compares.find("--array"), std::string::npos) << compares;
+}
+
+TEST(Study, WhatSlurmIsAskedForIsChecked) {
+  const auto refused = [](const Queue& q, bool slurm, const std::string& option, const std::string& reason) {
+    try {
+      checkQueue(q, slurm);
+      ADD_FAILURE() << option << " was taken";
+    } catch (const InputError& e) {
+      EXPECT_EQ(e.where().key, option);
+      EXPECT_NE(e.reason().find(reason), std::string::npos) << e.what();
+    }
+  };
+  for (const char* time : {"90", "90:00", "36:00:00", "1-12", "1-12:30", "1-12:30:15"})
+    EXPECT_NO_THROW(checkQueue({time, {}, {}, {}}, true)) << time;
+  for (const char* time : {"", "2h", "-1", "1:2:3:4", "1-", "90 ", "90\n#SBATCH --wrap=x"})
+    refused({time, {}, {}, {}}, true, "--time", "HOURS:MINUTES:SECONDS");
+  for (const char* memory : {"500", "500M", "8G", "1T"})
+    EXPECT_NO_THROW(checkQueue({{}, memory, {}, {}}, true)) << memory;
+  for (const char* memory : {"", "8 GB", "8GB", "-8G", "0.5G", "8g"})
+    refused({{}, memory, {}, {}}, true, "--mem", "a whole number of MB");
+  EXPECT_NO_THROW(checkQueue({{}, {}, "gpu-long,short_1", {}}, true));
+  for (const char* partition : {"", "a b", "a,", "-a", "$(x)"})
+    refused({{}, {}, partition, {}}, true, "--partition", "with commas between");
+  EXPECT_NO_THROW(checkQueue({{}, {}, {}, "armour_2.5-x"}, true));
+  for (const char* name : {"", "a b", "%j", "-a", "a/b", "a'"})
+    refused({{}, {}, {}, name}, true, "--job-name", "letters, digits");
+  refused({"90", {}, {}, {}}, false, "--time", "\"90\" is for Slurm; allowed: with --engine slurm");
+  refused({{}, {}, {}, "x"}, false, "--job-name", "allowed: with --engine slurm");
+  EXPECT_NO_THROW(checkQueue({}, false));
 }
 
 /// What a study or a batch writes itself is no name of a variant: said before anything runs.
@@ -201,9 +261,10 @@ TEST(Study, NamesOfItsOwnFilesAreTaken) {
   const std::string one =
       R"({"name": "s", "case": "cloth.json", "variants": [{"label": "NAME", "set": {"contact.friction": 0.2}}]})";
   const Folder folder;
-  for (const std::string name :
-       {"report.html", "study.json", "variants.csv", "curves.csv", "exponents.csv", "elasticities.csv", "meshes.csv",
-        "study.slurm", "cases", "logs", "pictures", "Cases", "REPORT.html", ".", "..", ".lock", ".gambeson"}) {
+  for (const std::string name : {"report.html",      "study.json", "variants.csv", "curves.csv",    "exponents.csv",
+                                 "elasticities.csv", "meshes.csv", "study.slurm",  "compare.slurm", "compare.log",
+                                 "submit.sh",        "cases",      "logs",         "pictures",      "Cases",
+                                 "REPORT.html",      ".",          "..",           ".lock",         ".gambeson"}) {
     SCOPED_TRACE(name);
     try {
       read(replaced(one, "NAME", name));
@@ -248,13 +309,59 @@ TEST(Study, AScriptHasPathsAsTheyAre) {
       "run|" + out + "/cases/" + name + ".json|--out|" + out + "/" + name + "|--threads|3|--device|cpu|--resume|");
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "F"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "G"));
+  // The same of what compares, by the study's file and of a batch by its cases.
+  const auto compared = [&] {
+    folder.write("script", compareScript(s, o));
+    EXPECT_EQ(std::system(("cd '" + folder.path().string() + "' && SLURM_CPUS_PER_TASK=3 bash script").c_str()), 0);
+    std::ifstream words(out + ".arguments");
+    return std::string(std::istreambuf_iterator<char>(words), {});
+  };
+  s.file = folder.path() / "my study.json";
+  EXPECT_EQ(compared(), "study|" + s.file.string() + "|--out|" + out + "|--compare|--threads|3|--device|cpu|");
+  o.csv = "european";
+  EXPECT_NE(compared().find("|--csv|european|"), std::string::npos);
+  s.file.clear();
+  std::get<Case>(s.variants[0].definition).file = folder.path() / "my case.json";
+  EXPECT_NE(compared().find("batch|" + (folder.path() / "my case.json").string() + "|--out|"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "F"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "G"));
   // What the queue itself reads has no text of the user's.
-  std::istringstream lines(slurmScript(s, o, {Stand::fresh}));
+  std::istringstream lines(slurmScript(s, o, {Stand::fresh}) + compareScript(s, o));
   for (std::string line; std::getline(lines, line);) {
     if (line.starts_with("#SBATCH")) {
       EXPECT_EQ(line.find('\''), std::string::npos) << line;
     }
   }
+}
+
+/// The comparison waits for the runs, whatever becomes of them; where it cannot be handed in, neither are the runs.
+TEST(Study, BothScriptsAreHandedIn) {
+  const Folder folder;
+  Options o;
+  o.out = folder.path() / "o'brien's out";
+  const auto fake = [&](const std::string& name, const std::string& text) {
+    std::filesystem::permissions(folder.write(name, "#!/bin/sh\nprintf '%s|' " + name + " \"$@\" >> said\n" + text),
+                                 std::filesystem::perms::owner_all);
+  };
+  folder.write("script", submitScript(o));
+  const auto handedIn = [&] {
+    std::filesystem::remove(folder.path() / "said");
+    const int status =
+        std::system(("cd '" + folder.path().string() + "' && PATH=.:$PATH bash script --account=x >/dev/null").c_str());
+    std::ifstream said(folder.path() / "said");
+    return std::pair(status, std::string(std::istreambuf_iterator<char>(said), {}));
+  };
+  const std::string out = o.out.string(), runs = "sbatch|--parsable|--account=x|" + out + "/study.slurm|",
+                    compares = "sbatch|--parsable|--dependency=afterany:17|--account=x|" + out + "/compare.slurm|";
+  fake("scancel", "");
+  fake("sbatch", "echo '17;cluster'\n");
+  EXPECT_EQ(handedIn(), std::pair(0, runs + compares));
+  fake("sbatch", "case $2 in --dep*) exit 1;; esac\necho 17\n");
+  const auto [status, said] = handedIn();
+  EXPECT_NE(status, 0);
+  EXPECT_EQ(said, runs + compares + "scancel|17|");
+  fake("sbatch", "exit 1\n");
+  EXPECT_EQ(handedIn().second, runs);
 }
 
 TEST(Study, BatchesRefuseTwoOfOneName) {
