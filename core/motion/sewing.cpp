@@ -2,12 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace gambeson {
 namespace {
 
 std::size_t garmentsOf(const Model& m) {
   return static_cast<std::size_t>(*std::max_element(m.sewn_garment.begin(), m.sewn_garment.end())) + 1;
+}
+
+bool rubs(const std::optional<FrictionLaw>& law) { return law && *law != FrictionLaw{}; }
+bool rubs(const ContactParameters& c) {
+  return rubs(std::optional(c.friction)) || rubs(c.on_cloth) ||
+         std::any_of(c.of_obstacle.begin(), c.of_obstacle.end(), [](const auto& law) { return rubs(law); }) ||
+         std::any_of(c.of_garment.begin(), c.of_garment.end(), [](const auto& law) { return rubs(law); });
 }
 
 }  // namespace
@@ -31,8 +39,9 @@ void closingRates(const Model& m, std::span<const Vec3> p, double dt, StepScratc
 void findOpenSeams(const Model& m, StepScratch& w) {
   const double fast = (1 - 1e-9) * m.sewing_options.close_m_per_s;
   std::vector<char> open(garmentsOf(m), 0);
+  const bool rub = rubs(m.contact);
   for (std::size_t k = 0; k < w.sewn_rates.size(); ++k)
-    if (norm(w.sewn_rates[k]) >= fast) open[static_cast<std::size_t>(m.sewn_garment[k])] = 1;
+    if (rub && norm(w.sewn_rates[k]) >= fast) open[static_cast<std::size_t>(m.sewn_garment[k])] = 1;
   w.sewn_open.clear();
   for (const int garment : m.sewn_garment) w.sewn_open.push_back(open[static_cast<std::size_t>(garment)]);
 }

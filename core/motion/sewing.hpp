@@ -28,8 +28,9 @@ std::span<const Vec3> sewAccelerations(const Model& model, double half_step_s, s
 
 /// Finds work.sewn_open by the rates: garments whose seams are still far open, as their widest gap closes as fast as
 /// gaps may. Their rates are wishes then, which contact grants as far as it can: it does not see their seams, and what
-/// it moves them by closes in later steps. A body between two edges, or friction in a wedge, contradicts a rate that
-/// must be kept by whatever force.
+/// it moves them by closes in later steps. A rough body between two edges contradicts a rate that must be kept by
+/// whatever force. Where nothing rubs, none counts as far open: what contact gave one side alone would be brought
+/// together in the next step, and seams would work on cloth that presses on itself.
 void findOpenSeams(const Model& model, StepScratch& work);
 /// Whether contact sees seams of any garment.
 bool someSeamsHold(const StepScratch& work);
@@ -46,7 +47,8 @@ double sewingWork(const Model& model, double dt_s, std::span<const Vec3> foresee
 double widestGap(const Model& model, std::span<const Vec3> p);
 
 /// Gives all free points the mean of their masses. While seams close both points of a pair go to meet in the ratio of
-/// their inverse masses, and neighbours whose ratios differ would be torn apart. Of a model that is moved for that alone.
+/// their inverse masses, and neighbours whose ratios differ would be torn apart. Of a model that is moved for that
+/// alone.
 void evenMasses(Model& model);
 
 /// The seams in the place of M^-1 for contacts.

@@ -63,7 +63,7 @@ CheckWords checkWords(const std::string& check, double value, double limit, cons
   if (check == "Contact solver")
     return {fmt::format("contact forces are not solved to the tolerance in {} of the steps", much),
             "Forces of those steps are approximate. Peaks that fall among them are less sure than root mean squares; "
-            "the energy check bounds what it does over the motion.",
+            "the energy check bounds what it does over the motion. contact.newton may solve them.",
             false};
   if (check == "Intersections")
     return {fmt::format("cloth passes through cloth at {} places at the end", count),

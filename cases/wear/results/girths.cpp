@@ -168,8 +168,13 @@ std::vector<GirthMeasure> girthsAt(const Scenario& s, const std::vector<Vec3>& x
   return girths;
 }
 
+std::string doesNotFit(const ShortMeasure& t) {
+  const std::string which = t.garment.empty() ? "the garment" : "garment \"" + t.garment + "\"";
+  return which + " does not fit: " + shortText(t.at);
+}
+
 void measureGirths(const Scenario& s, const RecordingReader& recording, Measured& out) {
-  if (!s.human || recording.frameCount() == 0) return;
+  if (recording.frameCount() == 0) return;
   int first = 0;  // the last frame before the motion, when all is put on
   while (first + 1 < recording.frameCount() && !(recording.time(first) > -1e-9)) ++first;
   const Frame frame = recording.frame(first);

@@ -10,6 +10,7 @@
 #include "analysis/ticks.hpp"
 #include "cases/runs/run_identity.hpp"
 #include "cases/wear/results/check_words.hpp"
+#include "cases/wear/results/girths.hpp"
 #include "cases/wear/results/joint_words.hpp"
 #include "cases/wear/results/stretch_checks.hpp"
 #include "cases/wear/results/write.hpp"
@@ -300,10 +301,7 @@ ReportInput reportInput(const Scenario& s, const Measured& m, const RunFacts& fa
     in.warnings.push_back(
         fmt::format("The run stopped at {:.2f} s of {:.2f} s: what follows is only what was recorded until then.",
                     m.recorded_end_s, s.end_s));
-  for (const ShortMeasure& t : m.too_short)
-    in.warnings.push_back(fmt::format("{} does not fit: {}.",
-                                      t.garment.empty() ? "The garment" : fmt::format("Garment \"{}\"", t.garment),
-                                      shortText(t.at)));
+  for (const ShortMeasure& t : m.too_short) in.warnings.push_back(capital(doesNotFit(t)) + ".");
   for (const std::string& note : s.notes) {
     const bool key = note.substr(0, note.find(' ')).find('.') != std::string::npos;  // "fabric.thickness: .."
     in.notes.push_back((key ? note : capital(note)) + ".");

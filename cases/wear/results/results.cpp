@@ -17,6 +17,7 @@
 #include "cases/wear/recording/recorded_scene.hpp"
 #include "cases/wear/results/check_words.hpp"
 #include "cases/wear/results/film.hpp"
+#include "cases/wear/results/girths.hpp"
 #include "cases/wear/results/viewer.hpp"
 #include "cases/wear/results/write.hpp"
 #include "core/error.hpp"
@@ -237,6 +238,7 @@ void writeResults(const std::filesystem::path& dir) {
   takeFilm(s, recording, dir, failures, in);
   in.warnings.insert(in.warnings.end(), failures.begin(), failures.end());
   writeReport(in, dir / "report.html");
+  for (const ShortMeasure& t : m.too_short) sayNote(doesNotFit(t));
   for (const AuditCheck& c : in.audit)
     if (!c.holds()) fmt::print(notes(), "{}\n", messageText(notMet(c.name, c.value, c.limit, c.unit)));
   if (!failures.empty()) throw RunError(failures.front() + " (the numbers and the report are in " + dir.string() + ")");

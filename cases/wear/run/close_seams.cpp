@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cases/input/message.hpp"
 #include "cases/wear/scene/garments.hpp"
 #include "cases/wear/scene/worn.hpp"
 #include "core/error.hpp"
@@ -121,8 +120,6 @@ State closedAround(const Scenario& s, double closed_s, Frequency& frequency, Dre
   }
   if (widest > closed_cells) throw RunError(gapingText(s, state, widest, closed_cells));
   requireWorn(s, state);
-  if (const std::string fit = fitText(s, state); !fit.empty())
-    sayNote(fmt::format("garment \"{}\" does not fit: {}", s.wardrobe.drafts[0].name, fit));
   return state;
 }
 

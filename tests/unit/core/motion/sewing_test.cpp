@@ -413,6 +413,38 @@ TEST(Sewing, WhatAMovedPanelGivesIsInTheEnergy) {
   EXPECT_LT(off[1], 0.6 * off[0]);
 }
 
+/// A seam that is far open closes at its rates while one of its sides lies on a smooth ball: contact moves both sides alike.
+/// Were they moved one by one, and brought together in the next step, seams would do work on what presses on itself.
+TEST(Sewing, OpenSeamsCloseAtTheirRatesUnderContact) {
+  const CutSheet sheet = sewnSheet();
+  Garment apart = sheet.garment(sheetFabric());
+  for (Vec3& x : apart.placed[1]) x.x += 0.1;
+  Placement at;
+  at.origin = {0.5 * sheet.length, 0.5 * sheet.width, -0.062};
+  Motion m = startOf(apart, {{0, 0, -9.81}, 0.1}, true, {1e-3, 0, 0.01, 1e-2, 400},
+                     {{Ellipsoid{{0.06, 0.06, 0.06}}, "ball"}}, {at});
+  const double dt = 0.4 * stableStep(m);
+  double off = 0, open = 1e300;
+  int touching = 0;
+  std::vector<Vec3> before, after;
+  for (int k = 0; k * dt < 0.06; ++k) {
+    m.model->sewing.gaps(m.state.p, before);
+    const StepReport r = m.step(dt);
+    ASSERT_EQ(r.failure, StepFailure::none) << r.why;
+    touching += !m.work.rows.empty() && contactsMeetSeams(*m.model, m.work.rows);
+    m.model->sewing.gaps(m.state.p, after);
+    double widest = 0;
+    for (const Vec3& gap : before) widest = std::max(widest, norm(gap));
+    open = std::min(open, widest);
+    for (std::size_t row = 0; row < after.size(); ++row)
+      off = std::max(off, norm(after[row] - (1 - dt * m.model->sewing_options.close_m_per_s / widest) * before[row]));
+  }
+  std::printf("open seam under contact: off its rates by %.1e m, %d steps with contacts on it\n", off, touching);
+  EXPECT_GT(touching, 50);
+  EXPECT_GT(open, 0.08);
+  EXPECT_LT(off, 1e-9);
+}
+
 /// Of two garments one falls onto a ball and the seam of the other is still far open: the first one's holds.
 TEST(Sewing, OneGarmentsSeamsHoldWhileAnothersAreOpen) {
   const CutSheet sheet = sewnSheet();
