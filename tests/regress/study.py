@@ -175,7 +175,8 @@ def refused(folder):
     done = run("study", file, "--out", folder / "out")
     check(done.returncode == 2 and "rough is in the way" in done.stderr, f"{done.returncode} {done.stderr}")
     done = run("study", file, "--out", folder / "script", "--engine", "slurm", "--jobs", 2, "--threads", 1)
-    check(done.returncode == 0 and "sbatch" in done.stdout, f"{done.stdout} {done.stderr}")
+    check(done.returncode == 0 and "submit.sh" in done.stdout, f"{done.stdout} {done.stderr}")
+    check("sbatch" in (folder / "script/submit.sh").read_text(), "submit.sh hands nothing to Slurm")
     # One task of the array, as the queue would start it.
     task = subprocess.run(["bash", folder / "script/study.slurm"], env={**os.environ, "SLURM_ARRAY_TASK_ID": "1", "SLURM_CPUS_PER_TASK": "1"},
                           capture_output=True, text=True)
