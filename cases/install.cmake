@@ -25,6 +25,6 @@ if(NOT GAMBESON_CUDA)
   set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
   set(CPACK_DEBIAN_PACKAGE_SECTION science)
   set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-  set(CPACK_DEBIAN_PACKAGE_DEPENDS fonts-dejavu-core)  # of pictures, read when one is taken
+  set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-dejavu-core, libosmesa6")  # of pictures: loaded when one is taken
   include(CPack)
 endif()
