@@ -55,7 +55,8 @@ def sources_of_packages():
 
 def files_of(root):
     """All files but those that packages are installed through and that loaders and fonts remember them in."""
-    changing = {"var/cache", "var/lib/apt", "var/lib/dpkg", "var/log", "etc/ld.so.cache", "proc", "sys", "dev", "tmp", "run"}
+    # Nor the home of who ran it, where Mesa keeps shaders, nor the two files that tzdata writes and keeps.
+    changing = {"root", "etc/localtime", "etc/timezone", "var/cache", "var/lib/apt", "var/lib/dpkg", "var/log", "etc/ld.so.cache", "proc", "sys", "dev", "tmp", "run"}
     files = set()
     for folder, below, names in os.walk(root):
         at = pathlib.Path(folder).relative_to(root)
