@@ -29,6 +29,29 @@ const setNormals = (x, corners, n) => {
   }
 };
 
+/// Fewer triangles over the same vertices: those that edges connect within a cube of this side are taken as one of them, so that nothing
+/// grows together that only lies side by side.
+const fewerCorners = (x, corners, cube_m) => {
+  const n = x.length / 3, of = new Int32Array(n), cube = new Array(n);
+  for (let v = 0; v < n; ++v) {
+    of[v] = v;
+    cube[v] = [0, 1, 2].map(c => Math.floor(x[3 * v + c] / cube_m)).join();
+  }
+  const find = v => { while (of[v] !== v) v = of[v] = of[of[v]]; return v; };
+  for (let i = 0; i < corners.length; ++i) {
+    const a = corners[i], b = corners[i % 3 === 2 ? i - 2 : i + 1];
+    if (cube[a] !== cube[b]) continue;
+    const p = find(a), q = find(b);
+    of[Math.max(p, q)] = Math.min(p, q);
+  }
+  const out = [];
+  for (let i = 0; i < corners.length; i += 3) {
+    const a = find(corners[i]), b = find(corners[i + 1]), c = find(corners[i + 2]);
+    if (a !== b && b !== c && c !== a) out.push(a, b, c);
+  }
+  return new Uint32Array(out);
+};
+
 /// Pairs of vertices: edges of one triangle only.
 const bordersOf = (corners, vertices) => {
   const count = new Map();

@@ -1,6 +1,7 @@
 // The picture: the runs beside each other, one camera for all of them.
 
 const kBodyBack_m = 0.006, kLayerBack_m = 0.0015, kFieldOfView = 24;
+const kManyCorners = 30000, kCubeInPlay_m = 0.02;
 
 const kViews = {
   front: [1, 0, 0.12], back: [-1, 0, 0.12], left: [0, 1, 0.12], right: [0, -1, 0.12], top: [0.001, 0, 1],
@@ -62,9 +63,20 @@ class Actor {
   /// All frames have come.
   complete() {
     this.stand();
+    for (const mesh of this.run.meshesOf('body')) {
+      if (mesh.corners.length < kManyCorners) continue;
+      const fewer = fewerCorners(mesh.x, mesh.corners, kCubeInPlay_m);
+      mesh.indices = [mesh.object.geometry.index, new THREE.BufferAttribute(fewer, 1)];
+    }
     if (!this.run.arrows) return;
     this.arrows = new Arrows(this.run.arrows, this.shared);
     this.root.add(this.arrows.object);
+  }
+
+  /// Bodies of many triangles have fewer while they move: the cloth is what is looked at.
+  move(moves) {
+    for (const mesh of this.run.meshes)
+      if (mesh.indices) mesh.object.geometry.setIndex(mesh.indices[moves ? 1 : 0]);
   }
 
   /// In the scene's axes: z is up.
@@ -264,6 +276,7 @@ class Stage {
       camera.updateMatrixWorld();
       this.shared.up.value.set(0, 0, 1).transformDirection(camera.matrixWorldInverse);
       this.actors[k].sizeMark(camera);
+      this.actors[k].move(this.playing);
       renderer.render(this.actors[k].scene, camera);
     });
     this.drawn = (this.drawn || 0) + 1;

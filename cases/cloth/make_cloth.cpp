@@ -59,6 +59,7 @@ std::unique_ptr<const Cloth> trianglesOf(std::span<const ClothSource> sources) {
   for (const ClothSource& s : sources) {
     garments.push_back(underKey(s.key, [&] { return s.mesh ? *s.mesh : meshDraft(s.draft, s.model.mesh); }));
     garments.back().closed = s.closed;
+    if (!s.closed) garments.back().springs.clear();  // panels that do not meet have no angle between them
     garments.back().membrane = s.model.membrane;
     garments.back().bending = s.model.bending;
     garments.back().bending_spring_N_per_m = s.model.bending_spring_N_per_m;

@@ -112,7 +112,7 @@ def main():
         again = run("check", place / "out/case.json", cwd=folder)
         check(again.returncode == 0, f"the case of the results gave {again.returncode}: {again.stderr}")
 
-        # The same as triangles, which meet vertex to vertex and are one once closed; they have no springs along seams.
+        # The same as triangles, which meet vertex to vertex and are one once closed; one side seam is pressed open.
         cut = json.loads(json.dumps(CASE))
         cut["garment"]["model"] = "triangles"
         done, place = worn(folder, "triangles", darted, cut)
@@ -121,8 +121,7 @@ def main():
         check(again.returncode == 0, f"the case of its results gave {again.returncode}: {again.stderr}")
         cut["garment"]["pattern"]["seams"] = [{"seam": "left", "stiffness": "1 mN"}]
         done, place = worn(folder, "sprung", darted, cut)
-        check(done.returncode == 2 and "rotational spring" in done.stderr and '"left: ' in done.stderr,
-              f"a spring along a seam of triangles: {done.returncode}, {done.stderr}")
+        sound(done, place / "out", "the tube of triangles with a spring along a seam")
 
         # Two darts of 3 mm on 5 cm, with a strip of 9 mm between them, and a band from 4 to 14 mm: all less than a cell wide.
         narrow = pattern(0.53 * girth)

@@ -207,9 +207,9 @@ void fields(A& a, T& m) {
 template <class A, Of<MeshDraft> T>
 void fields(A& a, T& g) {
   // Ties are of meshes that drafts are cut into; those that are recorded come from files.
-  auto& [mesh, rest, bending, bending_spring, fabrics, fabric, draft, range, grid, of_control, membrane, ties, closed,
-         sewn_seams] = g;
-  static_cast<void>(ties), static_cast<void>(closed), static_cast<void>(sewn_seams);
+  auto& [mesh, rest, bending, bending_spring, fabrics, fabric, draft, range, grid, of_control, membrane, ties, springs,
+         closed, sewn_seams] = g;
+  static_cast<void>(ties), static_cast<void>(springs), static_cast<void>(closed), static_cast<void>(sewn_seams);
   a("mesh", mesh)("rest", rest);
 }
 

@@ -26,6 +26,13 @@ struct MeshTie {
   double cell_m = 0;     ///< of the smaller of both meshes
 };
 
+/// Two edges that a seam with a rotational spring holds together, by vertices in the seam's sense (SewnSeam).
+struct MeshSpring {
+  std::array<std::array<int, 2>, 2> edge{};  ///< on either side
+  std::array<int, 2> patch{};
+  double stiffness_N = 0, rest_angle_rad = 0;
+};
+
 struct MeshDraft {
   ClothMesh mesh;
   MeshRest rest = MeshRest::fabric;
@@ -42,8 +49,9 @@ struct MeshDraft {
   SparseRows of_control;
   MembraneModel membrane;
   std::vector<MeshTie> ties;
+  std::vector<MeshSpring> springs;  ///< along seams
   bool closed = false;  ///< tied vertices are one point that moves; else rows hold them, which may still be open
-  int sewn_seams = 0;  ///< of the draft
+  int sewn_seams = 0;   ///< of the draft
 };
 
 }  // namespace gambeson

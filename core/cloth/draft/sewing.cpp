@@ -40,8 +40,7 @@ struct Measured {
       throw InputError({"", 0, keyOf(index)}, reason + nameOf(seam));
     };
     const auto positive = [](double x) { return x > 0 && std::isfinite(x); };
-    if (!(seam.stiffness_N >= 0 && std::isfinite(seam.stiffness_N))) reject("stiffness must be >= 0 N m/(m rad)");
-    if (!(std::abs(seam.rest_angle_rad) <= 3.14159265358979324)) reject("rest angle must lie within +-pi rad");
+    checkSpring(g, index);
     if (!positive(seam.factor)) reject("factor must be > 0");
     if (!(seam.rows_per_cell >= 0.25 && seam.rows_per_cell <= 4)) reject("rows per cell must lie in [0.25, 4]");
     const double ratio = std::max(a.length_m(), b.length_m()) / std::min(a.length_m(), b.length_m());
@@ -256,6 +255,15 @@ SewnPart loopPart(const Garment& garment, int patch, int loop, int curve, bool b
 
 double lengthOf(const Garment& garment, const SewnEdge& edge) {
   return SewnLength(garment, edge, "sewn_seams").length_m();
+}
+
+void checkSpring(const Garment& garment, std::size_t index) {
+  const SewnSeam& seam = garment.sewn_seams[index];
+  const auto reject = [&](const std::string& reason) {
+    throw InputError({"", 0, keyOf(index)}, reason + nameOf(seam));
+  };
+  if (!(seam.stiffness_N >= 0 && std::isfinite(seam.stiffness_N))) reject("stiffness must be >= 0 N m/(m rad)");
+  if (!(std::abs(seam.rest_angle_rad) <= 3.14159265358979324)) reject("rest angle must lie within +-pi rad");
 }
 
 SewnRows buildSewnRows(const Garment& garment, SeamHold hold) {

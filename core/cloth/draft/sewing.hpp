@@ -24,6 +24,9 @@ SewnPart loopPart(const Garment& garment, int patch, int loop, int curve, bool b
 /// Length at rest [m].
 double lengthOf(const Garment& garment, const SewnEdge& edge);
 
+/// Throws InputError (key "sewn_seams[i]") where a number of a seam's spring is out of range.
+void checkSpring(const Garment& garment, std::size_t seam);
+
 /// Where both sides of a seam are less than about three quarters of a cell apart in one panel (the tip of a dart) there
 /// is no row: both move with the same control points there. Of the seams that are held so (of control points). Throws
 /// InputError (key "sewn_seams[i]") where a patch does not exist, an edge leaves the patch, has no length or does not

@@ -5,8 +5,8 @@
 #include <cassert>
 #include <tuple>
 
+#include "core/cloth/draft/hinge.hpp"
 #include "core/cloth/free_blocks.hpp"
-#include "core/cloth/shell/hinge.hpp"
 #include "core/math/parallel.hpp"
 
 namespace gambeson {

@@ -60,6 +60,7 @@ class BendingTriangles {
   long historySize() const { return history_; }
   HistoryPlace historyOf(std::size_t bent) const;  ///< where its numbers stand, without its place
   const std::vector<double>& innerMasses() const { return inner_mass_; }  ///< of the inner unknowns [kg m^2]
+  void makeHeavier(int turn, double factor) { inner_mass_[static_cast<std::size_t>(turn)] *= factor; }
 
   /// Doubles that `force` works with, a multiple of the lanes.
   std::size_t scratchSize() const { return static_cast<std::size_t>(angles_ + couples_); }

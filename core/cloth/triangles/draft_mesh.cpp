@@ -286,14 +286,24 @@ MeshDraft meshDraft(const Garment& g, MeshKind kind) {
       mesh.lines.push_back(std::move(line));
     }
   out.sewn_seams = static_cast<int>(g.sewn_seams.size());
-  if (sewn)
-    for (const SewnPair& pair : sewn->pairs) {
-      const std::array<int, 2> ends{vertexOf(pointOf(pair.a)), vertexOf(pointOf(pair.b))};
-      if (ends[0] == ends[1]) continue;  // at the tip of a dart that is cut on
-      const double cell = std::min(sewn->patches[static_cast<std::size_t>(pair.a.patch)].cell_m,
-                                   sewn->patches[static_cast<std::size_t>(pair.b.patch)].cell_m);
-      out.ties.push_back({ends, {pair.a.patch, pair.b.patch}, pair.seam, pair.length_m, pair.spacing_m, cell});
+  if (!sewn) return out;
+  for (const SewnEdgePair& pair : sewn->edges) {
+    const SewnSeam& seam = g.sewn_seams[static_cast<std::size_t>(pair.seam)];
+    if (seam.stiffness_N == 0) continue;
+    MeshSpring spring{{}, {pair.a[0].patch, pair.b[0].patch}, seam.stiffness_N, seam.rest_angle_rad};
+    for (std::size_t end = 0; end < 2; ++end) {
+      spring.edge[0][end] = vertexOf(pointOf(pair.a[end]));
+      spring.edge[1][end] = vertexOf(pointOf(pair.b[end]));
     }
+    out.springs.push_back(spring);
+  }
+  for (const SewnPair& pair : sewn->pairs) {
+    const std::array<int, 2> ends{vertexOf(pointOf(pair.a)), vertexOf(pointOf(pair.b))};
+    if (ends[0] == ends[1]) continue;  // at the tip of a dart that is cut on
+    const double cell = std::min(sewn->patches[static_cast<std::size_t>(pair.a.patch)].cell_m,
+                                 sewn->patches[static_cast<std::size_t>(pair.b.patch)].cell_m);
+    out.ties.push_back({ends, {pair.a.patch, pair.b.patch}, pair.seam, pair.length_m, pair.spacing_m, cell});
+  }
   return out;
 }
 

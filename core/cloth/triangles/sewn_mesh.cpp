@@ -216,7 +216,7 @@ class Meshing {
       const SewnSeam& seam = g_.sewn_seams[static_cast<std::size_t>(k)];
       if (seam.hold == SeamHold::open) continue;
       if (seam.hold == SeamHold::weak) reject(keyOf(k), "weak seams go with NURBS cloth" + nameOf(seam));
-      if (seam.stiffness_N > 0) reject(keyOf(k), "seams with a rotational spring go with NURBS cloth" + nameOf(seam));
+      checkSpring(g_, static_cast<std::size_t>(k));
       std::array<std::vector<Run>, 2> runs;
       for (const SewnPart& part : seam.a) runs[0].push_back(runOf(part, k));
       for (const SewnPart& part : seam.b) runs[1].push_back(runOf(part, k));
@@ -413,17 +413,22 @@ class Meshing {
     return at == end_vertex_[i] ? first_vertex_[i] : at;
   }
 
+  MeshVertex vertexAlong(const Interval& v, bool forward, int k) const {
+    return {border(v.border).patch, vertexOf(v, forward ? k : v.edges - k)};
+  }
+
   void pairVertices() {
     std::set<std::array<int, 4>> known;
     for (std::size_t n = 0; n < links_.size(); ++n) {
       const Link& l = links_[n];
       const Interval &a = intervals_[sides_[n][0]], &b = intervals_[sides_[n][1]];
       const double spacing = 0.5 * (a.to - a.from + b.to - b.from) / a.edges;
+      const auto on_a = [&](int k) { return vertexAlong(a, l.a1 > l.a0, k); };
+      const auto on_b = [&](int k) { return vertexAlong(b, l.b1 > l.b0, k); };
+      for (int k = 0; k < a.edges && !l.cut; ++k)
+        out_.edges.push_back({{on_a(k), on_a(k + 1)}, {on_b(k), on_b(k + 1)}, l.seam});
       for (int k = 0; k <= a.edges; ++k) {
-        const auto on = [&](const Interval& v, bool forward) {
-          return MeshVertex{border(v.border).patch, vertexOf(v, forward ? k : v.edges - k)};
-        };
-        const MeshVertex va = on(a, l.a1 > l.a0), vb = on(b, l.b1 > l.b0);
+        const MeshVertex va = on_a(k), vb = on_b(k);
         if (va.patch == vb.patch && va.vertex == vb.vertex) continue;
         if (l.cut) {
           out_.cuts.push_back({va, vb});

@@ -30,6 +30,12 @@ struct SewnPair {
   double spacing_m = 0;  ///< to the next along the seam, likewise
 };
 
+/// Two edges that a seam joins, each in the seam's sense.
+struct SewnEdgePair {
+  std::array<MeshVertex, 2> a, b;
+  int seam = 0;
+};
+
 struct SewnMesh {
   struct Patch {
     std::vector<Vec2> uv;
@@ -37,14 +43,15 @@ struct SewnMesh {
     double cell_m = 0;  ///< wanted length of edges: the side of a square as large as the mean cell
   };
   std::vector<Patch> patches;
-  std::vector<SewnPair> pairs;  ///< of seams that steps hold, none twice, none of a vertex with itself
+  std::vector<SewnPair> pairs;      ///< of seams that steps hold, none twice, none of a vertex with itself
+  std::vector<SewnEdgePair> edges;  ///< of those seams
   /// Vertices at one place of cuts in a sheet (core/cloth/draft/shared_points.hpp): one in the cloth.
   std::vector<std::array<MeshVertex, 2>> cuts;
 };
 
 /// Throws InputError: key "sewn_seams[i]" where an edge does not run along a border or both sides are one, where a seam
-/// is weak (it goes with NURBS cloth) or has a rotational spring; "mesh" where a patch is not flat with even
-/// parameters, its border crosses itself, or patches are joined in other ways as well.
+/// is weak (it goes with NURBS cloth); "mesh" where a patch is not flat with even parameters, its border crosses
+/// itself, or patches are joined in other ways as well.
 SewnMesh sewnMesh(const Garment& garment);
 
 }  // namespace gambeson

@@ -106,6 +106,7 @@ class Builder {
       tie.seam += first_seam;
       out_.ties.push_back(tie);
     }
+    addSeamSprings();
     out_.T.column_count += columns_;
   }
 
@@ -208,6 +209,24 @@ class Builder {
         (g_.rest == MeshRest::fabric && hasRestCurvature(out_.fabrics[static_cast<std::size_t>(h.law)])))
       h.theta0 = foldAngle({at(0), at(1), at(2), at(3)}, nullptr);
     return h;
+  }
+
+  void addSeamSprings() {
+    if (g_.springs.empty()) return;
+    std::map<std::pair<int, int>, int> triangle_at;  // of edges as points, in the sense of their triangle
+    for (std::size_t t = first_triangle_; t < out_.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k)
+        triangle_at[{out_.triangles[t][k], out_.triangles[t][(k + 1) % 3]}] = static_cast<int>(t);
+    for (const MeshSpring& s : g_.springs) {
+      SeamSpring spring{{}, {}, s.stiffness_N, s.rest_angle_rad};
+      for (std::size_t side = 0; side < 2; ++side) {
+        for (std::size_t end = 0; end < 2; ++end) spring.edge[side][end] = pointOf(s.patch[side], s.edge[side][end]);
+        const auto [from, to] = spring.edge[side];
+        const auto forward = triangle_at.find({from, to});
+        spring.triangle[side] = forward != triangle_at.end() ? forward->second : triangle_at.at({to, from});
+      }
+      out_.seam_springs.push_back(spring);
+    }
   }
 
   /// Sides, and which of them are sewn to another patch along their whole length.

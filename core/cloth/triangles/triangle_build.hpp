@@ -29,8 +29,9 @@ struct TriangleParts {
   std::vector<MembraneModel> membrane_models;  ///< of each fabric
   std::vector<int> fabric_of_triangle;
   std::vector<MembraneTriangle> membranes;
-  bool sewn = false;              ///< some garment has ties
-  std::vector<MeshTie> ties;      ///< that are not closed; vertex: point, seam: of all garments
+  bool sewn = false;          ///< some garment has ties
+  std::vector<MeshTie> ties;  ///< that are not closed; vertex: point, seam: of all garments
+  std::vector<SeamSpring> seam_springs;
   std::vector<FoldHinge> hinges;  ///< in the order of the second triangle at an edge
 };
 

@@ -25,6 +25,7 @@ class TriangleTangent : public ClothTangent {
     const TriangleElements& e = cloth.elements();
     for (const MembraneTriangle& t : e.triangles()) rows.push_back(freePointsOf(cloth.map(), t.corner));
     for (const FoldHinge& h : e.hinges()) rows.push_back(freePointsOf(cloth.map(), h.corner));
+    for (const SeamHinge& h : e.seamSprings().hinges()) rows.push_back(e.seamSprings().blocksOf(h, cloth.map()));
     for (const BentTriangle& t : e.bending().triangles())
       rows.push_back(e.bending().blocksOf(t, e.hinges(), cloth.map()));
     sparsity_ = blockSparsity(cloth.map().T.column_count + cloth.innerBlocks(), rows);
@@ -41,6 +42,7 @@ class TriangleTangent : public ClothTangent {
     }
     e.bending().addStiffness(e.hinges(), cloth_.map(), state, terms, K);
     e.quadratic().addStiffness(cloth_.map(), terms, K);
+    e.seamSprings().addStiffness(cloth_.map(), state, terms, K);
     if (terms.bending) e.springs().addStiffness(cloth_.map(), state.q, terms.definite, K);
     for (std::size_t k = 0; k < e.hinges().size(); ++k) {
       if (!e.isHinge(k)) continue;
@@ -77,7 +79,7 @@ TriangleCloth::TriangleCloth(std::vector<MeshDraft> garments)
     if (home < 0) home = i;
   }
   elements_ = TriangleElements(points(), std::move(parts_.membranes), std::move(parts_.hinges), parts_.fabrics,
-                               *triangleKernels().front(), parts_.membrane_models);
+                               *triangleKernels().front(), parts_.membrane_models, parts_.seam_springs);
   mounting_ = triangleMounting(*this);
 }
 

@@ -8,7 +8,7 @@
 /// Baraff and Witkin's conditions, both with damping (triangle_membrane.hpp).
 ///
 /// Bending by tensors: bending_triangles.hpp. By springs: crossed_springs.hpp. By quadratic hinges:
-/// quadratic_hinges.hpp.
+/// quadratic_hinges.hpp. Across seams of flat panels: seam_springs.hpp.
 ///
 /// By hinges: one along every edge between two triangles. theta is the angle between their normals, theta0 at rest;
 /// with l the length of the edge and A the area of both triangles at rest the curvature across the edge is

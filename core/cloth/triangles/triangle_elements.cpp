@@ -175,13 +175,13 @@ void TriangleElements::packTriangles() {
 
 TriangleElements::TriangleElements(int points, std::vector<MembraneTriangle> triangles, std::vector<FoldHinge> hinges,
                                    std::span<const Fabric> fabrics, const TriangleKernels& kernels,
-                                   std::span<const MembraneModel> membranes)
+                                   std::span<const MembraneModel> membranes, std::span<const SeamSpring> seam_springs)
     : triangles_(std::move(triangles)), hinges_(std::move(hinges)), kernels_(&kernels), gather_(points) {
   for (const Fabric& f : fabrics) {
     const std::size_t k = laws_.size();
     laws_.push_back(lawOfTriangles(f));
-    membranes_.push_back(triangleMembrane(membranes.empty() ? MembraneModel{} : membranes[k], f,
-                                              laws_.back().point.section));
+    membranes_.push_back(
+        triangleMembrane(membranes.empty() ? MembraneModel{} : membranes[k], f, laws_.back().point.section));
   }
   history_at_.resize(hinges_.size());
   packHinges();
@@ -194,6 +194,8 @@ TriangleElements::TriangleElements(int points, std::vector<MembraneTriangle> tri
   packSprings();
   quadratic_ = QuadraticHinges(hinges_, triangles_, laws_, kernels, slot_count_, gather_);
   slot_count_ += quadratic_.slots();
+  seam_springs_ = SeamSprings(seam_springs, triangles_, laws_, bending_, kernels.lanes, slot_count_, gather_);
+  slot_count_ += seam_springs_.slots();
   gather_.close();
   hinges_of_.assign(triangles_.size(), {-1, -1, -1});
   for (std::size_t k = 0; k < hinges_.size(); ++k)
@@ -347,6 +349,7 @@ void TriangleElements::force(const ClothState& state, const ClothForce& out, Clo
   bending_.force(state, out, terms, std::span(work.slots).subspan(list), moments, work);
   springs_.force(state, out, terms.bending, work.slots.data(), work);
   quadratic_.force(state, out, terms, work.slots.data(), work);
+  seam_springs_.force(state, out, terms, work.slots.data());
   for (const ElementBlock& block : triangle_blocks_) {
     BlockLaw law = withHistory(withTerms(block.law, terms), block.history_first, state, out);
     double* const energy = energies.start(block.groups * lanes, law);
@@ -366,7 +369,7 @@ void TriangleElements::dampingForce(const ClothState& state, const ClothForce& o
   const double *q = reinterpret_cast<const double*>(state.q.data()),
                *v = reinterpret_cast<const double*>(state.v.data());
   // What bends with slots of its own has these behind those of the triangles, and damps nothing.
-  const long bending = springs_.slots() + quadratic_.slots();
+  const long bending = springs_.slots() + quadratic_.slots() + seam_springs_.slots();
   std::fill_n(work.slots.data() + slot_count_ - bending, bending, 0.0);
   for (const ElementBlock& block : triangle_blocks_) {
     double* const slots = work.slots.data() + block.first;
@@ -485,8 +488,8 @@ void TriangleElements::hingeStiffness(int hinge, const ClothState& state, const 
   law.use = bendingUse(law.use);
   const double change[3] = {kappa * h.d.x, kappa * h.d.y, kappa * h.d.z}, d[3] = {h.d.x, h.d.y, h.d.z};
   Answer<double, 3> answer;
-  evaluateBending<with_slope>(law.evaluated(), numbersOf(law), change,
-                              memoryOf(static_cast<std::size_t>(hinge), state), answer);
+  evaluateBending<with_slope>(law.evaluated(), numbersOf(law), change, memoryOf(static_cast<std::size_t>(hinge), state),
+                              answer);
   double across[3]{};
   addProduct(answer.slope, d, across);
   const double slope = across[0] * d[0] + across[1] * d[1] + across[2] * d[2];

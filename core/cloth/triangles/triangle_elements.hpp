@@ -12,6 +12,7 @@
 #include "core/cloth/triangles/crossed_springs.hpp"
 #include "core/cloth/triangles/quadratic_hinges.hpp"
 #include "core/cloth/triangles/rest_elements.hpp"
+#include "core/cloth/triangles/seam_springs.hpp"
 #include "core/cloth/triangles/triangle_kernel.hpp"
 #include "core/cloth/triangles/triangle_membrane.hpp"
 #include "core/material/fabric.hpp"
@@ -26,7 +27,7 @@ class TriangleElements {
   /// membrane.
   TriangleElements(int points, std::vector<MembraneTriangle> triangles, std::vector<FoldHinge> hinges,
                    std::span<const Fabric> fabrics, const TriangleKernels& kernels = *triangleKernels().front(),
-                   std::span<const MembraneModel> membranes = {});
+                   std::span<const MembraneModel> membranes = {}, std::span<const SeamSpring> seam_springs = {});
 
   const std::vector<MembraneTriangle>& triangles() const { return triangles_; }
   const std::vector<FoldHinge>& hinges() const { return hinges_; }
@@ -34,6 +35,7 @@ class TriangleElements {
   const BendingTriangles& bending() const { return bending_; }
   const CrossedSprings& springs() const { return springs_; }
   const QuadraticHinges& quadratic() const { return quadratic_; }
+  const SeamSprings& seamSprings() const { return seam_springs_; }
   /// Doubles of the history: those of each hinge and bent triangle whose law remembers, and of each triangle that has
   /// friction in shear, lanes side by side.
   std::size_t historySize() const { return static_cast<std::size_t>(history_); }
@@ -87,13 +89,14 @@ class TriangleElements {
   std::vector<MembraneTriangle> triangles_;
   std::vector<FoldHinge> hinges_;
   std::vector<BlockLaw> laws_;
-  std::vector<TriangleMembrane> membranes_;  ///< of each law
+  std::vector<TriangleMembrane> membranes_;    ///< of each law
   std::vector<std::array<int, 3>> hinges_of_;  ///< of each triangle; -1 where it has fewer
   const TriangleKernels* kernels_ = nullptr;
   std::vector<ElementBlock> triangle_blocks_, hinge_blocks_;
   BendingTriangles bending_;
   CrossedSprings springs_;
   QuadraticHinges quadratic_;
+  SeamSprings seam_springs_;
   std::vector<long> history_at_;  ///< of each hinge's first number
   std::vector<long> shear_at_;    ///< of each triangle's
   std::vector<int> moment_;       ///< of each edge: where its moment is; -1: none

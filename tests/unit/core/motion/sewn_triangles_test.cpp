@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "core/cloth/triangles/draft_mesh.hpp"
@@ -26,8 +27,10 @@ CutSheet sewnSheet(bool apart) {
   return sheet;
 }
 
-std::shared_ptr<const Cloth> trianglesOf(const Garment& g) {
-  return std::make_shared<TriangleCloth>(std::vector<MeshDraft>{meshDraft(g, MeshKind::single)});
+std::shared_ptr<const Cloth> trianglesOf(const Garment& g, BendingElements bending = BendingElements::hinge) {
+  MeshDraft draft = meshDraft(g, MeshKind::single);
+  draft.bending = bending;
+  return std::make_shared<TriangleCloth>(std::vector<MeshDraft>{std::move(draft)});
 }
 
 /// A square [-half, half]^2 without the wedge of this angle about the x axis, its tip in the middle; one panel.
@@ -101,7 +104,7 @@ TEST(SewnTriangles, RefusesWhatItCannotSew) {
   sheet.hold = SeamHold::weak;
   EXPECT_THROW(meshDraft(sheet.garment(sheetFabric()), MeshKind::single), InputError);
   sheet = sewnSheet(false);
-  sheet.stiffness_N = 1e-3;
+  sheet.stiffness_N = -1e-3;
   EXPECT_THROW(meshDraft(sheet.garment(sheetFabric()), MeshKind::single), InputError);
   EXPECT_THROW(meshDraft(sewnSheet(false).garment(sheetFabric()), MeshKind::equilateral), InputError);
   Garment g = sewnSheet(false).garment(sheetFabric());
@@ -136,8 +139,10 @@ Motion placedMotion(const Garment& g, const Environment& e) {
   return m;
 }
 
-TEST(SewnTriangles, AFreeSheetKeepsItsMomentaAndItsStep) {
-  const Garment g = sewnSheet(true).garment(sheetFabric());
+void expectMomentaAndStep(double stiffness_N) {
+  CutSheet sheet = sewnSheet(true);
+  sheet.stiffness_N = stiffness_N;
+  const Garment g = sheet.garment(sheetFabric());
   Motion m = placedMotion(g, {{0, 0, 0}, 0});
   Garment unsewn = g;
   for (SewnSeam& seam : unsewn.sewn_seams) seam.hold = SeamHold::open;
@@ -171,58 +176,220 @@ TEST(SewnTriangles, AFreeSheetKeepsItsMomentaAndItsStep) {
   EXPECT_LT(gap, 1e-9);
 }
 
-/// The free edge of a sheet that swings down from its held edge, sewn and in one piece, as parts of its way.
-double swingError(int cells) {
+TEST(SewnTriangles, AFreeSheetKeepsItsMomentaAndItsStep) {
+  for (const double stiffness_N : {0.0, 1e-3}) expectMomentaAndStep(stiffness_N);
+}
+
+/// The same triangles in one piece: vertices that a seam ties are one vertex.
+MeshDraft welded(MeshDraft draft) {
+  std::vector<int> to(draft.mesh.vertices.size());
+  std::iota(to.begin(), to.end(), 0);
+  for (const MeshTie& tie : draft.ties) to[static_cast<std::size_t>(tie.vertex[1])] = tie.vertex[0];
+  for (auto& t : draft.mesh.triangles)
+    for (int& v : t) v = to[static_cast<std::size_t>(v)];
+  std::vector<int> number(to.size(), -1);
+  std::vector<Vec3> vertices;
+  for (auto& t : draft.mesh.triangles)
+    for (int& v : t) {
+      int& n = number[static_cast<std::size_t>(v)];
+      if (n < 0)
+        n = static_cast<int>(vertices.size()), vertices.push_back(draft.mesh.vertices[static_cast<std::size_t>(v)]);
+      v = n;
+    }
+  MeshDraft one;
+  one.mesh = {vertices,      {"whole"}, draft.mesh.triangles, std::vector<int>(draft.mesh.triangles.size(), 0),
+              draft.mesh.uv, {}};
+  one.fabrics = draft.fabrics;
+  one.bending = draft.bending;
+  return one;
+}
+
+/// The free edge of a sheet that swings down from its held edge, sewn and in one piece, as parts of its way. The seam
+/// is so much stiffer than a cell of the cloth. `own`: the sheet in one piece has vertices of its own masses, where
+/// those of sewn panels bear 0.3 of a whole one's at least, corners of the sheet as well.
+double swingError(int cells, double stiffer, BendingElements bending, bool own) {
   CutSheet sheet = sewnSheet(false);
   sheet.cells = cells;
+  sheet.stiffness_N = stiffer * 2e-4 / (sheet.width / cells);
   Fabric fabric = sheetFabric();
   fabric.law = LinearBending{{2e-4, 2e-4}};
-  const Garment g = sheet.garment(fabric), one = sheet.whole(fabric, cells);
+  MeshDraft draft = meshDraft(sheet.garment(fabric), MeshKind::single);
+  draft.bending = bending;
   const Environment e{{0, 0, -9.81}, 0.1};
-  const auto motionOf = [&](const Garment& of) {
+  const auto motionOf = [&](MeshDraft of) {
     ModelOptions o;
     o.self_contact = false;
-    const std::shared_ptr<const Cloth> cloth = trianglesOf(of);
+    const auto cloth = std::make_shared<TriangleCloth>(std::vector<MeshDraft>{std::move(of)});
     for (int i = 0; i < cloth->points(); ++i)
       if (std::abs(cloth->rest()[static_cast<std::size_t>(i)].x) < 1e-9) o.held_control_points.push_back(i);
     return Motion(cloth, e, {}, o);
   };
-  Motion sewn = motionOf(g), whole = motionOf(one);
-  const auto edge = [&](const Motion& m) {  // the mean of the far edge
-    Vec3 sum{};
-    double count = 0;
-    for (int i = 0; i < m.model->freeCount(); ++i) {
-      const int home = m.model->cloth->map().home[static_cast<std::size_t>(i)];
-      if (std::abs(m.model->cloth->rest()[static_cast<std::size_t>(home)].x - sheet.length) < 1e-9)
-        sum += m.state.p[static_cast<std::size_t>(i)], ++count;
-    }
-    return sum / count;
+  Motion sewn = motionOf(draft), whole = motionOf(welded(draft));
+  const auto restOf = [](const Motion& m, int i) {
+    return m.model->cloth->rest()[static_cast<std::size_t>(m.model->cloth->map().home[static_cast<std::size_t>(i)])];
   };
-  const Vec3 start = edge(whole);
+  for (int i = 0; i < whole.model->freeCount() && !own; ++i) {
+    double& mass = whole.model->mass_kg[static_cast<std::size_t>(i)];
+    mass = 0;
+    for (int k = 0; k < sewn.model->freeCount(); ++k)
+      if (norm(restOf(whole, i) - restOf(sewn, k)) < 1e-9) mass += sewn.model->mass_kg[static_cast<std::size_t>(k)];
+  }
+  const auto edge = [&](const Motion& m) {  // the far corners
+    std::array<Vec3, 2> at;
+    for (int i = 0; i < m.model->freeCount(); ++i) {
+      const Vec3 x = restOf(m, i);
+      for (const std::size_t k : {0, 1})
+        if (norm(x - Vec3{sheet.length, static_cast<double>(k) * sheet.width, 0}) < 1e-9)
+          at[k] = m.state.p[static_cast<std::size_t>(i)];
+    }
+    return at;
+  };
+  const std::array<Vec3, 2> start = edge(whole);
   const double seconds = 0.25, dt = 0.5 * std::min(stableStep(sewn), stableStep(whole));
   const int steps = static_cast<int>(std::ceil(seconds / dt));
   double error = 0, way = 0;
   for (int k = 1; k <= steps; ++k) {
     EXPECT_EQ(sewn.step(seconds / steps).failure, StepFailure::none);
     EXPECT_EQ(whole.step(seconds / steps).failure, StepFailure::none);
-    error = std::max(error, norm(edge(sewn) - edge(whole)));
-    way = std::max(way, norm(edge(whole) - start));
+    const std::array<Vec3, 2> a = edge(sewn), b = edge(whole);
+    for (const std::size_t c : {0, 1})
+      error = std::max(error, norm(a[c] - b[c])), way = std::max(way, norm(b[c] - start[c]));
   }
-  std::printf("swing, %d cells: edge goes %.4f m, off by %.2f %%; %d steps\n", cells, way, 100 * error / way, steps);
+  std::printf("swing, %d cells, spring %g times a cell%s: edge goes %.4f m, off by %.2f %%; %d steps\n", cells, stiffer,
+              own ? "" : ", masses of the sewn", way, 100 * error / way, steps);
   return error / way;
 }
 
-/// A seam is a hinge without resistance: what the cloth's own bending does across it is missing, less of it on finer
-/// cells. The cloth here is stiff for its weight.
-TEST(SewnTriangles, ASheetCutByAnSSwingsNearlyLikeTheWholeOne) {
-  const double coarse = swingError(8), fine = swingError(16);
-  EXPECT_LT(coarse, 0.1);
-  EXPECT_LT(fine, 0.1);
+/// The cloth here is stiff for its weight. Without a spring what its own bending does across the seam is missing.
+TEST(SewnTriangles, ASheetCutByAnSSwingsLikeTheWholeOne) {
+  for (const int cells : {8, 16}) {
+    EXPECT_LT(swingError(cells, 20, BendingElements::hinge, true), 0.01);
+    EXPECT_LT(swingError(cells, 20, BendingElements::midedge, false), 0.005);
+  }
+  EXPECT_GT(swingError(8, 0, BendingElements::hinge, true), 0.01);
+  EXPECT_GT(swingError(8, 0, BendingElements::midedge, false), 0.01);
+}
+
+/// A strip of two panels, folded about their seam: the energy of the spring and of the cloth beside it, in a row.
+TEST(SewnTriangles, ASpringAndTheClothBesideItBendInARow) {
+  Fabric fabric = sheetFabric();
+  fabric.law = LinearBending{{2e-4, 2e-4, 2e-4}};
+  Garment g = garmentOf({panelPatch(6, 4, {0, 0}, {0.3, 0.2}), panelPatch(6, 4, {0, 1}, {0.3, 1.2})}, {}, fabric);
+  g.sewn_seams = {{{sidePart(g, {0, Side::v1, false})}, {sidePart(g, {1, Side::v0, false})}}};
+  g.sewn_seams[0].rest_angle_rad = 0.2;
+  for (const double stiffness_N : {1e-4, 1e-2, 1e6}) {
+    g.sewn_seams[0].stiffness_N = stiffness_N;
+    const std::shared_ptr<const Cloth> cloth = trianglesOf(g);
+    const auto& triangles = dynamic_cast<const TriangleCloth&>(*cloth).elements();
+    for (const double fold : {0.1, 0.2, 0.5}) {
+      std::vector<Vec3> q = cloth->rest();
+      for (Vec3& x : q)
+        if (x.y > 0.5) x = Vec3{x.x, 0.2, 0} + rotationAbout({1, 0, 0}, fold) * Vec3{0, x.y - 1, 0};
+      double expected = 0;
+      for (const SeamHinge& hinge : triangles.seamSprings().hinges()) {
+        const HingePoint& h = hinge.points;
+        double apex = 0;  // the heights of both triangles, from the derivatives into them
+        for (std::size_t k = 0; k < h.columns.size(); ++k)
+          if (h.t[k] == 0) apex += 1 / (h.a[k] + h.b[k]);
+        double length = 0;
+        for (std::size_t k = 0; k < h.columns.size(); ++k)
+          length += h.t[k] * cloth->rest()[static_cast<std::size_t>(h.columns[k])].x;
+        const double turn = fold - 0.2;
+        expected += 0.5 * turn * turn * std::abs(length) / (1 / stiffness_N + apex / (2 * 2e-4));
+      }
+      std::vector<Vec3> f(q.size());
+      ClothWork work;
+      ClothEnergy energy;
+      cloth->force(ClothState(q), {f, {}, {}, &energy}, work, {});
+      EXPECT_GT(expected + (fold == 0.2), 1e-9);
+      EXPECT_NEAR(energy.stored, expected, 1e-9 * expected + 1e-15) << stiffness_N << " " << fold;
+    }
+  }
+}
+
+/// Of points, and of what edges turn where triangles bend by tensors.
+void expectGradientAndTangent(BendingElements bending) {
+  CutSheet sheet = sewnSheet(false);
+  sheet.cells = 4;
+  sheet.stiffness_N = 0.02;
+  Fabric fabric = sheetFabric();
+  fabric.law = LinearBending{{2e-4, 2e-4}};
+  Garment g = sheet.garment(fabric);
+  g.sewn_seams[0].rest_angle_rad = 0.4;
+  const std::shared_ptr<const Cloth> cloth = trianglesOf(g, bending);
+  std::vector<Vec3> q = cloth->rest();
+  std::vector<double> inner(cloth->innerValues());
+  const auto wave = [](double rate, std::size_t i) { return std::sin(rate * static_cast<double>(i) + 1); };
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] += 0.01 * Vec3{wave(7, i), wave(5, i), wave(3, i)};
+  for (std::size_t i = 0; i < inner.size(); ++i) inner[i] = 0.1 * wave(4, i);
+  const auto value = [&](std::size_t i) -> double& {
+    return i < 3 * q.size() ? q[i / 3][static_cast<int>(i % 3)] : inner[i - 3 * q.size()];
+  };
+  const std::size_t values = 3 * q.size() + inner.size();
+  ForceTerms terms;
+  terms.membrane = terms.bending = false;
+  const auto at = [&](std::vector<double>& f) {
+    std::vector<Vec3> points(q.size());
+    std::vector<double> turns(inner.size());
+    ClothWork work;
+    ClothEnergy energy;
+    cloth->force(ClothState(q, inner, {}), {points, turns, {}, &energy}, work, terms);
+    f.clear();
+    for (const Vec3& x : points) f.insert(f.end(), {x.x, x.y, x.z});
+    f.insert(f.end(), turns.begin(), turns.end());
+    return energy.stored;
+  };
+  std::vector<double> f, high, low;
+  at(f);
+  double size = 0, of_turns = 0;
+  for (std::size_t i = 0; i < values; ++i)
+    (i < 3 * q.size() ? size : of_turns) = std::max(i < 3 * q.size() ? size : of_turns, std::abs(f[i]));
+  ASSERT_GT(size, 1e-4);
+  EXPECT_EQ(of_turns > 0, bending == BendingElements::midedge);
+  const std::unique_ptr<ClothTangent> tangent = cloth->tangent();
+  BlockMatrix K;
+  ClothWork work;
+  tangent->assemble(ClothState(q, inner, {}), work, K, terms);
+  const auto placeOf = [&](std::size_t i) {
+    const bool point = i < 3 * q.size();
+    const std::size_t k = point ? i : i - 3 * q.size();
+    return std::pair(point ? cloth->map().T.columns[k / 3] : cloth->map().T.column_count + static_cast<int>(k / 3),
+                     k % 3);
+  };
+  const double h = 1e-6;
+  double stiffest = 0, off = 0;
+  for (std::size_t i = 0; i < values; ++i) {
+    const double was = value(i);
+    value(i) = was + h;
+    const double up = at(high);
+    value(i) = was - h;
+    const double down = at(low);
+    value(i) = was;
+    EXPECT_NEAR(f[i], -(up - down) / (2 * h), 1e-6 * size);
+    const auto [row, d] = placeOf(i);
+    for (std::size_t k = 0; k < values; ++k) {
+      const auto [column, e] = placeOf(k);
+      if (column < row) continue;  // the upper half is kept
+      const double numeric = -(high[k] - low[k]) / (2 * h);
+      const long block = K.find(row, column);
+      const double exact = block < 0 ? 0 : K.values[static_cast<std::size_t>(9 * block) + 3 * d + e];
+      stiffest = std::max(stiffest, std::abs(numeric)), off = std::max(off, std::abs(numeric - exact));
+    }
+  }
+  EXPECT_GT(stiffest, 1e-2);
+  EXPECT_LT(off, 1e-6 * stiffest);
+}
+
+TEST(SewnTriangles, ForceOfSpringsIsTheGradientOfTheirEnergyAndTheTangentItsOwn) {
+  for (const BendingElements bending : {BendingElements::hinge, BendingElements::midedge})
+    expectGradientAndTangent(bending);
 }
 
 /// Once closed, both vertices of a pair are one point, which moves as rows would have both move.
 TEST(SewnTriangles, ClosedSeamsMoveAsRowsDo) {
-  const Garment g = sewnSheet(false).garment(sheetFabric());
+  CutSheet sheet = sewnSheet(false);
+  sheet.stiffness_N = 1e-3;
+  const Garment g = sheet.garment(sheetFabric());
   MeshDraft draft = meshDraft(g, MeshKind::single);
   const auto rows = std::make_shared<TriangleCloth>(std::vector<MeshDraft>{draft});
   draft.closed = true;

@@ -6,7 +6,7 @@
 #include <Eigen/Dense>
 #include <limits>
 
-#include "core/cloth/shell/hinge.hpp"
+#include "core/cloth/draft/hinge.hpp"
 #include "core/cloth/patches/patch_loads.hpp"
 #include "core/cloth/shell/tangent.hpp"
 #include "core/error.hpp"

@@ -1,4 +1,4 @@
-#include "core/cloth/shell/hinge.hpp"
+#include "core/cloth/draft/hinge.hpp"
 
 namespace gambeson {
 namespace {
