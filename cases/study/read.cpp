@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -12,6 +13,7 @@
 #include "cases/input/units.hpp"
 #include "cases/study/files.hpp"
 #include "cases/study/input.hpp"
+#include "cases/study/uncertainty_runs.hpp"
 #include "core/error.hpp"
 
 namespace gambeson::study {
@@ -269,7 +271,11 @@ class Maker {
     introduce(v);
     identify(v);
     study_.variants.push_back(std::move(v));
+    root_ = std::move(root);
   }
+
+  /// The file of the case of the variant that was added last, with its values in.
+  const JsonNode& root() const { return root_; }
 
   static void identify(Variant& v) {
     v.identity = std::visit([](const auto& c) { return caseIdentity(c); }, v.definition);
@@ -299,7 +305,7 @@ class Maker {
   const Entry& entry_;
   const StudyInput& in_;
   Study& study_;
-  JsonNode base_;
+  JsonNode base_, root_;
   std::vector<Setting> common_;
   std::set<std::string> folders_;
 };
@@ -339,26 +345,34 @@ int baselineLevel(const Study& s, std::size_t axis) {
   return 0;
 }
 
+/// Takes of each axis that the key "where" names the levels that it lists.
+void takeWhere(const Entry& entry, const Study& s, std::vector<std::vector<int>>& choices,
+               const std::function<void(const Entry&, const Axis&)>& check) {
+  const JsonNode* list = entry.node.find("where");
+  if (!list) return;
+  const Entry where = entry.member(*list);
+  if (list->type != JsonNode::Type::object)
+    where.fail("expected an object { } of axis: list of labels, not " + describe(*list));
+  for (const JsonNode& child : where.node.children) {
+    const Entry at = where.member(child);
+    const std::size_t axis = axisNamed(at, s, child.key);
+    check(at, s.axes[axis]);
+    if (child.type != JsonNode::Type::list || child.children.empty())
+      at.fail("expected a list of labels, not " + describe(child));
+    choices[axis].clear();
+    for (std::size_t i = 0; i < child.children.size(); ++i)
+      choices[axis].push_back(levelNamed(at.item(i), s.axes[axis], child.children[i]));
+  }
+}
+
 void addElasticities(const Entry& root, const ElasticityInput& in, Maker& maker, Study& s) {
   const Entry entry = root.member(*root.node.find("elasticities"));
   std::vector<std::vector<int>> choices = allLevels(s);
   for (std::size_t a = 0; a < s.axes.size(); ++a)
     if (isFactor(s.axes[a])) choices[a] = {baselineLevel(s, a)};
-  if (in.where.type != JsonNode::Type::null) {
-    const Entry where = entry.member(*entry.node.find("where"));
-    if (in.where.type != JsonNode::Type::object)
-      where.fail("expected an object { } of axis: list of labels, not " + describe(in.where));
-    for (const JsonNode& child : where.node.children) {
-      const Entry at = where.member(child);
-      const std::size_t axis = axisNamed(at, s, child.key);
-      if (isFactor(s.axes[axis])) at.fail("is an axis of factors, which stay at the baseline; allowed: another axis");
-      if (child.type != JsonNode::Type::list || child.children.empty())
-        at.fail("expected a list of labels, not " + describe(child));
-      choices[axis].clear();
-      for (std::size_t i = 0; i < child.children.size(); ++i)
-        choices[axis].push_back(levelNamed(at.item(i), s.axes[axis], child.children[i]));
-    }
-  }
+  takeWhere(entry, s, choices, [](const Entry& at, const Axis& axis) {
+    if (isFactor(axis)) at.fail("is an axis of factors, which stay at the baseline; allowed: another axis");
+  });
   const std::array<const char*, 5> factors{"bending", "membrane", "weight", "inertia", "drag"};
   const std::array<double, 2> values{1 - in.step, 1 + in.step};
   for (const auto& levels : combinations(choices, factors.size() * values.size(), entry))
@@ -370,10 +384,44 @@ void addElasticities(const Entry& root, const ElasticityInput& in, Maker& maker,
       }
 }
 
+/// Adds to each reference the runs that tell how sure its numbers are. Without axes the first variant is one, whose
+/// values are `first`.
+void addUncertainty(const Entry& root, const UncertaintyInput& in, const std::vector<Setting>& first, Maker& maker,
+                    Study& s) {
+  const Entry entry = root.member(*root.node.find("uncertainty"));
+  std::vector<std::vector<int>> choices = allLevels(s);
+  bool meshes = std::any_of(s.variants.begin(), s.variants.end(), [](const Variant& v) { return v.finer; });
+  for (std::size_t a = 0; a < s.axes.size(); ++a) {
+    const Role role = s.axes[a].role;
+    meshes = meshes || (role == Role::mesh && s.axes[a].levels.size() > 1);
+    if (role == Role::mesh || isFactor(s.axes[a]) || isChosen(role)) choices[a] = {baselineLevel(s, a)};
+  }
+  takeWhere(entry, s, choices, [](const Entry&, const Axis&) {});
+  for (const auto& levels : combinations(choices, 1, entry)) {
+    std::size_t reference = 0;
+    while (!s.axes.empty() && !(s.variants[reference].grid && s.variants[reference].levels == levels)) ++reference;
+    const auto* held = std::get_if<Case>(&s.variants[reference].definition);
+    if (!held) entry.fail("is of worn cloth; allowed: a study of cases without \"kind\"");
+    const Case c = *held;  // variants are added below
+    s.uncertainty = uncertaintyOf(entry, in, c, meshes);
+    for (UncertaintyRun& run : uncertaintyRuns(entry, in, *s.uncertainty, c, maker.root())) {
+      std::vector<Setting> set = first;
+      set.insert(set.end(), run.set.begin(), run.set.end());
+      const std::string label = s.axes.empty() ? s.variants[0].label + ", " + run.label : run.label;
+      maker.add(levels, set, label, entry);
+      Variant& v = s.variants.back();
+      v.part = run.part;
+      v.finer = run.part == BarPart::mesh;
+      v.reference = static_cast<int>(reference);
+      v.scores = std::move(run.scores);
+    }
+  }
+}
+
 /// Without axes the first variant is what the others are compared with.
 void linkBaselines(Study& s) {
   if (s.axes.empty())
-    for (Variant& v : s.variants) v.grid = true;
+    for (Variant& v : s.variants) v.grid = v.part == BarPart::none;
   for (Variant& v : s.variants) {
     std::vector<int> wanted = v.levels;
     for (std::size_t k = 0; k < s.compared.size(); ++k) wanted[static_cast<std::size_t>(s.compared[k])] = s.baseline[k];
@@ -396,7 +444,8 @@ Study readStudy(const std::filesystem::path& file) {
   s.file = file;
   s.limits = in.limits;
   s.pictures = in.pictures;
-  if (in.axes.empty() && in.variants.empty()) entry.fail("one of axes or variants is required, and not empty");
+  if (in.axes.empty() && in.variants.empty() && !in.uncertainty)
+    entry.fail("one of axes or variants is required, and not empty");
   for (std::size_t a = 0; a < in.axes.size(); ++a) {
     const Entry at = entry.member(*root.find("axes")).item(a);
     Axis axis = axisOf(at, in.axes[a]);
@@ -421,7 +470,14 @@ Study readStudy(const std::filesystem::path& file) {
     maker.add(levels, settingsOf(at.member(*at.node.find("set"))), in.variants[i].label, at);
     s.variants.back().finer = in.variants[i].finer;
   }
+  if (s.variants.empty()) maker.add({}, {}, "as it is", entry);
   if (in.elasticities) addElasticities(entry, *in.elasticities, maker, s);
+  if (in.uncertainty) {
+    const auto first = s.axes.empty() && !in.variants.empty()
+                           ? settingsOf(entry.member(*root.find("variants")).item(0).member(in.variants[0].set))
+                           : std::vector<Setting>{};
+    addUncertainty(entry, *in.uncertainty, first, maker, s);
+  }
   linkBaselines(s);
   return s;
 }
