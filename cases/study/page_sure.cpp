@@ -131,6 +131,7 @@ std::string notesOf(const Study& s, const Comparison& c) {
 }  // namespace
 
 std::string plusMinus(const Study& s, const Comparison& c, std::size_t variant, const Headline& what) {
+  if (s.variants[variant].part != BarPart::none) return "";  // what tells a bar has none
   const auto n = barOf(s, c, variant, what);
   return n && n->bar.combined() ? " \u00b1 " + formatNumber(*n->bar.combined(), 2) : "";
 }

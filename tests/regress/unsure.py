@@ -19,7 +19,7 @@ import tempfile
 from common import SOURCE, check, run
 
 JOINTS = ["hip_flexion_left", "hip_flexion_right"]
-SPREAD = {"thickness": "3 %", "moduli": "10 %", "bending": "15 %", "friction": "20 %"}
+SPREAD = {"thickness": "3 %", "moduli": "10 %", "bending": "15 %", "friction": "22 %"}
 COARSE = {"garment.shorts.cell": "50 mm", "human.motion.walk.lead_in": "0.3 s", "human.motion.walk.strides": 1,
           "time.duration": "0.9 s", "output.pictures": []}
 
