@@ -142,6 +142,26 @@ std::string costOf(const Study& s, const Comparison& c, const Option& option, co
                              " class=\"reason\""));
 }
 
+/// The error bars of the pressure that decides of the option that is taken; empty where none is known.
+std::string comfortBar(const Study& s, const Comparison& c) {
+  if (c.verdict.take < 0 || c.verdict.comfort.empty()) return "";
+  using Q = Headline::Quantity;
+  std::size_t worst = 0;
+  const ComfortNumbers* least = nullptr;
+  for (const VariantGroup& g : c.groups)
+    for (const std::size_t i : g.members)
+      if (memberName(s, c, i) == c.input.options[static_cast<std::size_t>(c.verdict.take)].name)
+        if (const ComfortNumbers* k = c.runs[i].leastComfortable();
+            k && (!least || k->part_of_limit() > least->part_of_limit()))
+          least = k, worst = i;
+  if (!least) return "";
+  std::string text;
+  for (const auto& [quantity, name] : {std::pair(Q::mean_pressure, "mean"), std::pair(Q::peak_pressure, "peak")})
+    if (const auto n = gambeson::study::barOf(s, c, worst, {quantity, least->zone, ""}); n && n->relative())
+      text += fmt::format("{} of the {} \u00b1 {}", text.empty() ? " Error bar" : ",", name, percent(*n->relative()));
+  return text.empty() ? "" : text + ".";
+}
+
 /// Where none is taken: each, with its own natural moments.
 std::string eachOf(const Study& s, const Comparison& c) {
   std::string list;
@@ -210,7 +230,8 @@ std::string meaningOf(const Study& s, const Comparison& c) {
 std::string headline(const Study& s, const Comparison& c, const std::vector<SidePicture>& pictures) {
   const Verdict& v = c.verdict;
   std::string words = element("p", prose(v.sentence), " class=\"sentence\"");
-  words += judged(v.cover, v.enough) + judged(v.comfort_light, v.comfort) + takenOf(s, c);
+  words += judged(v.cover, v.enough) + judged(v.comfort_light, v.comfort.empty() ? "" : v.comfort + comfortBar(s, c)) +
+           takenOf(s, c);
   std::string meaning;
   for (const std::string& note :
        {multiplesOf(s),
