@@ -130,7 +130,9 @@ std::vector<UncertaintyRun> uncertaintyRuns(const Entry& entry, const Uncertaint
         {BarPart::mesh, fmt::format("cells {:g} times smaller", times), finerCells(entry, times, c, root), {}});
   }
   if (asked.step) {
-    const double planned = plannedDuration(c), played = in.step_duration_s.value_or(0.5 * planned);
+    const double planned = plannedDuration(c), frame = c.output.frame_s;
+    const double half = std::min(planned, frame * std::max(1.0, std::ceil(0.5 * planned / frame - 1e-9)));
+    const double played = in.step_duration_s.value_or(half);
     if (!(played <= planned))
       entry.failAt("step_duration",
                    fmt::format("{} s is out of range; allowed: at most the motion's {} s", played, planned));
