@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/trust.hpp"
+#include "analysis/uncertainty/error_bar.hpp"
 
 namespace gambeson {
 
@@ -66,8 +67,11 @@ struct VerdictInput {
   std::vector<Option> options;  ///< with sizes: rising
   int baseline = -1;
   double green = 0, red = 0;
-  /// Relative difference of a peak between the coarse and the fine mesh, the largest; nothing: one mesh only.
-  std::optional<double> mesh_error;
+  /// Half widths of the error bars of peaks, of the largest torque, the largest of all runs that tell one
+  /// (analysis/uncertainty/error_bar.hpp): of the mesh, the step, and the spread of the fabric; nothing: not asked.
+  std::optional<double> mesh_error, step_error, fabric_error;
+  /// All of them together; nothing where none was asked.
+  std::optional<double> error() const { return ErrorBar{mesh_error, step_error, fabric_error}.combined(); }
   std::string mesh_where;  ///< the runs that tell it: "thickness x 1, walking"
   struct Exponent {
     std::string motion, joint;

@@ -232,15 +232,16 @@ void judgeChoice(const VerdictInput& in, Verdict& v) {
     }
   }
   // Of two torques one may be off by it upwards, the other downwards.
-  const double e = in.mesh_error.value_or(0);
+  const std::optional<double> error = in.error();
+  const double e = error.value_or(0);
   const double needed = v.order && (v.chosen || v.light == Light::unknown) ? (1 + e) / std::max(1 - e, 1e-9) - 1 : e;
   v.surety = margin && *margin >= kNarrow ? Surety::fairly : Surety::no;
   if (!margin) v.surety = in.options.size() > 1 && v.light == Light::green ? Surety::fairly : Surety::no;
-  if (in.mesh_error && margin) {
+  if (error && margin) {
     v.surety = *margin > needed ? Surety::yes : Surety::no;
     say(v.surety == Surety::yes
-            ? fmt::format("Coarse and fine mesh differ by less, {}.", percent(*in.mesh_error))
-            : fmt::format("Coarse and fine mesh differ by {}: too much to be sure.", percent(*in.mesh_error)));
+            ? fmt::format("The error bar is smaller, {}.", percent(*error))
+            : fmt::format("The error bar is {}: too much to be sure.", percent(*error)));
   } else if (margin && *margin < kNarrow) {
     say(v.chosen ? "A narrow margin: compare with a finer mesh before you decide."
                  : "A narrow margin: compare with a finer mesh.");

@@ -269,11 +269,19 @@ std::string enoughOf(const VerdictInput& in, const Verdict& v) {
 std::string numbersOf(const VerdictInput& in, const Verdict& v) {
   std::string s;
   const auto say = [&](const std::string& text) { s += (s.empty() ? "" : " ") + text; };
-  if (in.mesh_error)
-    say(fmt::format("Error bar of the peaks: {} % either way, the difference of coarse and fine mesh{}.",
-                    formatBrief(100 * *in.mesh_error, 2), in.mesh_where.empty() ? "" : " (" + in.mesh_where + ")"));
-  else
-    say("No error bar: the study has one mesh, so what a finer one would change is not known.");
+  const ErrorBar bar{in.mesh_error, in.step_error, in.fabric_error};
+  if (const auto whole = bar.combined()) {
+    std::string parts;
+    for (const BarPart part : kBarParts)
+      if (const auto one = bar.of(part))
+        parts += fmt::format("{}{} {} %{}", parts.empty() ? "" : ", ", nameOf(part), formatBrief(100 * *one, 2),
+                             part == BarPart::mesh && !in.mesh_where.empty() ? " (" + in.mesh_where + ")" : "");
+    say(fmt::format("Error bar of the peaks: {} % either way, in 19 of 20 cases: {}.", formatBrief(100 * *whole, 2),
+                    parts));
+  }
+  if (!in.mesh_error)
+    say(fmt::format("No error bar{}: the study has one mesh, so what a finer one would change is not known.",
+                    bar.combined() ? " of the mesh" : ""));
   const bool judged = trustOf(in).spoiling == 0;
   if (judged && v.holds_up_to && v.light == Light::red)
     say(fmt::format("It is not red only if the true torque is more than {} smaller.", percent(*v.holds_up_to)));

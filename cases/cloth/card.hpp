@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cases/cloth/fabric.hpp"
+#include "cases/cloth/fabric_spread.hpp"
 #include "cases/cloth/loop_input.hpp"
 #include "core/material/hysteresis.hpp"
 #include "core/material/kes_shear.hpp"
@@ -82,6 +83,7 @@ struct CardDrape {
 struct FabricCard {
   std::string name, source, description;
   std::string spread, range;  ///< in words: how far specimens differ; in which the numbers are fitted
+  FabricSpread spread_of;     ///< the same in numbers, as far as somebody measured it
   double thickness_m = 0;
   bool thickness_assumed = false;  ///< the card has none
   std::optional<double> thickness_pressure_Pa, weight_kg_per_m2;

@@ -274,6 +274,9 @@ Object makeCardTable() {
       .required()
       .text("description", &C::description, "what the fabric is: fibre, weave, use");
   table.text("spread", &C::spread, "how far specimens, or laboratories, differ")
+      .object("spread_of", &C::spread_of, spreadTable(),
+              "the same in numbers: from them a study's uncertainty takes its samples of the fabric")
+      .defaultsTo("not known")
       .text("range", &C::range, "of what the numbers are fitted to, where it is not the instruments' own");
   labNumber(table, "thickness", &C::thickness_m, "m", "0.8 mm", between(1e-6, 0.05), "thickness",
             "T0, or the weight over 400 kg/m^3, said as an assumption: forces and moments per width need none");

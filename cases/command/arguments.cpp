@@ -569,7 +569,7 @@ void addStudy(CLI::App& app, StudyArguments& a) {
   command.footer(
       "Leaves in DIR: report.html (start here), study.json (all numbers), variants.csv (a row for each variant), "
       "curves.csv\n"
-      "(torques over time), exponents.csv, elasticities.csv, meshes.csv, pictures/, logs/, and a folder with the run "
+      "(torques over time), exponents.csv, elasticities.csv, meshes.csv, uncertainty.csv, pictures/, logs/, and a folder with the run "
       "of\n"
       "each variant.\n\n"
       "Examples:\n"

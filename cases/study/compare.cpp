@@ -167,7 +167,7 @@ void findElasticities(const Study& s, Comparison& c) {
   std::map<std::string, std::vector<std::size_t>> families;
   std::vector<std::string> order;
   for (std::size_t i = 0; i < s.variants.size(); ++i) {
-    if (s.variants[i].rest_identity.empty() || !c.runs[i].good) continue;
+    if (s.variants[i].rest_identity.empty() || !c.runs[i].good || s.variants[i].part != BarPart::none) continue;
     if (!families.contains(s.variants[i].rest_identity)) order.push_back(s.variants[i].rest_identity);
     families[s.variants[i].rest_identity].push_back(i);
   }
@@ -260,8 +260,12 @@ void compareMeshes(const Study& s, Comparison& c) {
     row.difference = std::abs(of->peak_Nm) / std::abs(f.peak_Nm) - 1;
     const Likeness like = compareShifted(fine.time_s, f.torque_Nm, of->torque_Nm, 0, settled_s, 1e300);
     row.course = coarse.time_s == fine.time_s ? like.rms_difference / std::abs(f.peak_Nm) : std::nan("");
-    row.error = weight(f) * std::abs(std::abs(of->peak_Nm) - std::abs(f.peak_Nm));
-    largest[row.level] = std::max(largest[row.level], weight(f) * std::abs(f.peak_Nm));
+    // Pages show the coarse run where the fine one is a further variant, else the fine one.
+    const About about = w->finer ? About::coarse : About::fine;
+    const double shown = std::abs(about == About::coarse ? of->peak_Nm : f.peak_Nm);
+    row.bar = meshPart(coarse, fine, f.name, about).value_or(std::nan(""));
+    row.error = weight(f) * row.bar * shown;
+    largest[row.level] = std::max(largest[row.level], weight(f) * shown);
     c.meshes.push_back(row);
   }
   // What a motion that costs next to nothing is off by decides nothing.
@@ -343,6 +347,7 @@ Comparison compare(const Study& s, std::vector<RunNumbers> runs) {
   findExponents(s, c);
   findElasticities(s, c);
   compareMeshes(s, c);
+  findBudgets(s, c);
   c.input = verdictInput(s, c);
   c.verdict = verdictOf(c.input);
   decideFirst(c);

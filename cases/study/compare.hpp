@@ -11,6 +11,7 @@
 #include "analysis/viewer/viewer.hpp"
 #include "cases/study/numbers.hpp"
 #include "cases/study/run.hpp"
+#include "cases/study/uncertainty.hpp"
 
 namespace gambeson::study {
 
@@ -50,8 +51,9 @@ struct MeshRow {
   int coarse_points = 0, fine_points = 0;
   double coarse_Nm = 0, fine_Nm = 0;  ///< peaks
   double difference = 0;              ///< of the peaks, relative to the fine one
-  double error = 0;                   ///< of the peaks, relative to the largest torque of the same level
+  double error = 0;                   ///< the same, relative to the largest torque of the same level
   double course = 0;                  ///< RMS difference after 0.2 s, of the fine peak
+  double bar = 0;                     ///< half width about the peak that pages show, of it
 };
 
 struct Comparison {
@@ -63,6 +65,7 @@ struct Comparison {
   std::vector<AxisExponent> exponents;
   std::vector<ElasticityRow> elasticities;
   std::vector<MeshRow> meshes;
+  std::vector<Budget> budgets;  ///< of references, in the order of the variants
   VerdictInput input;
   Verdict verdict;
 };
@@ -77,6 +80,11 @@ std::optional<double> peakAboveStanding(const RunNumbers& run, const JointNumber
 void compareVariants(const Study& study, std::vector<Outcome>& outcomes, const std::filesystem::path& out);
 
 // Its parts.
+/// The bar of a number of a variant: its own reference's, or in per cent that of the reference that is most like it;
+/// nothing where none was asked for. `taken_over`: whether it is another's.
+std::optional<BarredNumber> barOf(const Study& study, const Comparison& c, std::size_t variant, const Headline& what,
+                                  bool* taken_over = nullptr);
+void findBudgets(const Study& study, Comparison& c);
 /// A joint of a variant against its baseline's; null without one.
 const JointRatio* ratioOf(const Comparison& c, std::size_t variant, const std::string& joint);
 /// Whether others are compared with this variant.

@@ -87,6 +87,28 @@ schema::Object elasticityTable() {
   return table.build();
 }
 
+schema::Object uncertaintyTable() {
+  using U = UncertaintyInput;
+  Table<U> table("Uncertainty");
+  table
+      .integer("runs", &U::runs, 12, 1000,
+               "samples of the fabric, a Latin hypercube over its spreads; none are run where no spread is known")
+      .integer("seed", &U::seed, 0, 2147483647, "of the draws: the same seed gives the same samples")
+      .object("spread", &U::spread, schema::spreadTable(), "of the fabric, in place of what its card says")
+      .defaultsTo("spread_of of the card; of several fabrics the largest. What neither says is named on the page")
+      .text("source", &U::source, "where the spreads that the study gives are from")
+      .flag("step", &U::step, "one run with half of every step (time.step_safety, max_step and step)")
+      .number("step_duration", &U::step_duration_s, "s", schema::aboveTo(0, 3600),
+              "how much of the motion that run plays: what it differs by until then counts for all")
+      .defaultsTo("half of the motion")
+      .number("finer", &U::finer, "", schema::between(1, 4),
+              "one run on cells so many times smaller: 1.5 costs some four runs; 1: none")
+      .defaultsTo("1.5; 1 where the study has finer meshes of its own (an axis of meshes, a variant with finer)");
+  rawField(table, "where", &U::where, "object axis: list of labels; only at these levels",
+           "designs at the baseline, meshes at their first level, all others at all levels");
+  return table.build();
+}
+
 schema::Object limitsTable() {
   return Table<Limits>("Limits")
       .number("green", &Limits::green, "", schema::aboveTo(0, 10), "green below this part of the natural moment")
@@ -115,6 +137,11 @@ schema::Object makeStudyTable() {
       .object("elasticities", &S::elasticities, elasticityTable(),
               "adds the ten variants that tell how much of the torque is due to bending, membrane, weight, inertia and "
               "drag, at each combination of the axes that are not factors (those stay at the baseline)")
+      .defaultsTo("none");
+  table
+      .object("uncertainty", &S::uncertainty, uncertaintyTable(),
+              "adds the runs that tell the error bar of every number: of the mesh, of the step, and of the spread of "
+              "the fabric; variants elsewhere have the same bars in per cent")
       .defaultsTo("none");
   rawField(
       table, "baseline", &S::baseline,

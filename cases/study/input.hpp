@@ -1,6 +1,7 @@
 #pragma once
 /// A study as its file has it, before it becomes variants.
 
+#include "cases/cloth/fabric_spread.hpp"
 #include "cases/study/study.hpp"
 
 namespace gambeson::study {
@@ -30,6 +31,15 @@ struct ElasticityInput {
   double step = 0.1;
   JsonNode where;
 };
+struct UncertaintyInput {
+  int runs = 12, seed = 1;
+  FabricSpread spread;
+  std::string source;
+  bool step = true;
+  std::optional<double> step_duration_s;  ///< absent: half of the motion
+  std::optional<double> finer;            ///< absent: 1.5 where the study has no finer meshes of its own; 1: none
+  JsonNode where;
+};
 struct StudyInput {
   std::string name, description;
   std::filesystem::path file;
@@ -37,6 +47,7 @@ struct StudyInput {
   std::vector<AxisInput> axes;
   std::vector<ExtraInput> variants;
   std::optional<ElasticityInput> elasticities;
+  std::optional<UncertaintyInput> uncertainty;
   Limits limits = publishedLimits();
   std::vector<PictureCase> pictures{
       {PictureTime::peak, 0, PictureField::stress, View::front_right, PictureAround::wearer, 640, 720},

@@ -118,16 +118,48 @@ std::string item(const std::string& question, const std::string& html) {
   return element("dt", escape(question)) + element("dd", html);
 }
 
-/// "4 % of natural 52.0 Nm: 2.08 Nm, left hip (flexion)" with its light.
-std::string costOf(const Study& s, const Comparison& c, const Option::Cost& worst) {
+/// " ± 0.31", of a cost of an option.
+std::string barOf(const Study& s, const Comparison& c, const Option& option, const Option::Cost& cost) {
+  for (const VariantGroup& g : c.groups)
+    for (const std::size_t i : g.members)
+      if (g.label == cost.motion && memberName(s, c, i) == option.name)
+        for (const JointNumbers& j : c.runs[i].joints)
+          if (j.label == cost.joint) return plusMinus(s, c, i, {Headline::Quantity::peak, j.name, j.label});
+  return "";
+}
+
+/// "4 % of natural 52.0 Nm: 2.08 ± 0.31 Nm, left hip (flexion)" with its light.
+std::string costOf(const Study& s, const Comparison& c, const Option& option, const Option::Cost& worst) {
   const std::string share =
       worst.part ? fmt::format("{} of natural {} Nm: ", percentBeside(*worst.part, s.limits.green, s.limits.red),
                                formatNumber(worst.peak_Nm / *worst.part))
                  : "";
   // Where no run knows a natural moment, no light is missing.
   return fmt::format("{}{}", anyNatural(c) ? lightOf(s, trustOf(c.input), worst.part) + " " : "",
-                     element("span", prose(fmt::format("{}{} Nm, {}", share, formatNumber(worst.peak_Nm), worst.joint)),
+                     element("span",
+                             prose(fmt::format("{}{}{} Nm, {}", share, formatNumber(worst.peak_Nm),
+                                               barOf(s, c, option, worst), worst.joint)),
                              " class=\"reason\""));
+}
+
+/// The error bars of the pressure that decides of the option that is taken; empty where none is known.
+std::string comfortBar(const Study& s, const Comparison& c) {
+  if (c.verdict.take < 0 || c.verdict.comfort.empty()) return "";
+  using Q = Headline::Quantity;
+  std::size_t worst = 0;
+  const ComfortNumbers* least = nullptr;
+  for (const VariantGroup& g : c.groups)
+    for (const std::size_t i : g.members)
+      if (memberName(s, c, i) == c.input.options[static_cast<std::size_t>(c.verdict.take)].name)
+        if (const ComfortNumbers* k = c.runs[i].leastComfortable();
+            k && (!least || k->part_of_limit() > least->part_of_limit()))
+          least = k, worst = i;
+  if (!least) return "";
+  std::string text;
+  for (const auto& [quantity, name] : {std::pair(Q::mean_pressure, "mean"), std::pair(Q::peak_pressure, "peak")})
+    if (const auto n = gambeson::study::barOf(s, c, worst, {quantity, least->zone, ""}); n && n->relative())
+      text += fmt::format("{} of the {} \u00b1 {}", text.empty() ? " Error bar" : ",", name, percent(*n->relative()));
+  return text.empty() ? "" : text + ".";
 }
 
 /// Where none is taken: each, with its own natural moments.
@@ -137,7 +169,8 @@ std::string eachOf(const Study& s, const Comparison& c) {
     std::string costs;
     for (const VariantGroup& g : c.groups)
       if (const Option::Cost* worst = worstCost(o, &g.label))
-        costs += (costs.empty() ? "" : "<br>") + (g.label.empty() ? "" : escape(g.label) + ": ") + costOf(s, c, *worst);
+        costs +=
+            (costs.empty() ? "" : "<br>") + (g.label.empty() ? "" : escape(g.label) + ": ") + costOf(s, c, o, *worst);
     list += item(o.name, costs.empty() ? (o.untouched ? "touches nothing that a joint moves" : "not known") : costs);
   }
   return element("dl", list, " class=\"answers\"");
@@ -163,7 +196,7 @@ std::string takenOf(const Study& s, const Comparison& c) {
   for (const VariantGroup& g : c.groups) {
     const Option::Cost* worst = worstCost(o, &g.label);
     if (!worst) continue;
-    list += item(g.label.empty() ? "Costs" : fmt::format("Costs, {}", g.label), costOf(s, c, *worst));
+    list += item(g.label.empty() ? "Costs" : fmt::format("Costs, {}", g.label), costOf(s, c, o, *worst));
   }
   return element("dl", list, " class=\"answers\"");
 }
@@ -197,7 +230,8 @@ std::string meaningOf(const Study& s, const Comparison& c) {
 std::string headline(const Study& s, const Comparison& c, const std::vector<SidePicture>& pictures) {
   const Verdict& v = c.verdict;
   std::string words = element("p", prose(v.sentence), " class=\"sentence\"");
-  words += judged(v.cover, v.enough) + judged(v.comfort_light, v.comfort) + takenOf(s, c);
+  words += judged(v.cover, v.enough) + judged(v.comfort_light, v.comfort.empty() ? "" : v.comfort + comfortBar(s, c)) +
+           takenOf(s, c);
   std::string meaning;
   for (const std::string& note :
        {multiplesOf(s),
@@ -233,10 +267,11 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
                                                      : "The worst",
                        surety[static_cast<int>(v.surety)]),
            v.choice) +
-      card(c.input.mesh_error ? fmt::format("How much: \u00b1 {}", percent(c.input.mesh_error))
-                              : std::string("How much: no error bar"),
+      card(c.input.error() ? fmt::format("How much: \u00b1 {}", percent(c.input.error()))
+                           : std::string("How much: no error bar"),
            v.numbers,
-           doubts.empty() ? "" : element("ul", doubts) + element("p", "<a href=\"#checks\">What that means</a>"));
+           (c.budgets.empty() ? "" : element("p", "<a href=\"#sure\">What that is made of</a>")) +
+               (doubts.empty() ? "" : element("ul", doubts) + element("p", "<a href=\"#checks\">What that means</a>")));
   return element("section", body + meaning,
                  shown ? " class=\"headline pictured\" aria-label=\"The verdict\""
                        : " class=\"headline\" aria-label=\"The verdict\"") +
@@ -293,6 +328,10 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
     pageSection("laws", "How the torque changes with what varies", "", lawsOf(s, c));
     pageSection("elasticities", "What the torque is made of", "", elasticitiesOf(c));
     pageSection("meshes", "Coarse and fine", "What the error bar of the verdict comes from.", meshesOf(c));
+    pageSection("sure", "How sure",
+                "Each number is off by its mesh and its time step, and no two pieces of a fabric are alike. Which of "
+                "these counts, and what would make the number surer?",
+                sureOf(s, c));
     pageSection("standing", "Standing and moving", "", standingOf(s, c));
   }
   pageSection("forces", "Comfort, and where the garment presses", "", forcesOf(s, c));

@@ -58,6 +58,10 @@ std::string forcesOf(const Study& study, const Comparison& c);
 std::string kindsOf(const Study& study, const Comparison& c);
 std::string thicknessPage(const Study& study, const Comparison& c);
 std::string clothOf(const Study& study, const Comparison& c);
+// page_sure.cpp
+std::string sureOf(const Study& study, const Comparison& c);
+/// " ± 0.31", of a number of a variant; empty where no bar is known.
+std::string plusMinus(const Study& study, const Comparison& c, std::size_t variant, const Headline& what);
 // page_trust.cpp
 std::string checksOf(const Study& study, const Comparison& c);
 std::string leftOutOf(const Study& study, const Comparison& c);

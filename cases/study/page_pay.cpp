@@ -34,7 +34,8 @@ Html payment(const Study& s, const Comparison& c, std::size_t i, const JointNumb
   std::string first = j.part() ? escape(percentBeside(*j.part(), s.limits.green, s.limits.red)) + " " +
                                      lightOf(s, c.runs[i].trust(), j.part())
                                : "";
-  std::string second = formatNumber(std::abs(j.peak_Nm)) + (j.prismatic ? " N" : " Nm");
+  std::string second = formatNumber(std::abs(j.peak_Nm)) +
+                       (j.prismatic ? " N" : plusMinus(s, c, i, {Headline::Quantity::peak, j.name, j.label}) + " Nm");
   if (own_natural && j.natural_Nm) second += "<br>of natural " + formatNumber(*j.natural_Nm) + " Nm";
   if (const JointRatio* r = ratioOf(c, i, j.name); r && !isBaseline(s, i) && std::isfinite(r->peak))
     second += "<br>" + formatNumber(r->peak, 2) + " of the baseline\u2019s";

@@ -100,7 +100,7 @@ std::string switchedOffIn(const Study& s) {
 std::string leftOutOf(const Study& s, const Comparison& c) {
   std::string out = idleJoints(s, c) + switchedOffIn(s);
   if (!s.file.empty()) {
-    if (c.meshes.empty())
+    if (c.meshes.empty() && !(s.uncertainty && s.uncertainty->mesh))
       out += element("li",
                      "The study has no finer mesh: there is no error bar. A variant with \"finer\", or an axis with "
                      "the role mesh, gives one.");

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/uncertainty/error_bar.hpp"
 #include "analysis/verdict.hpp"
 #include "cases/input/schema.hpp"
 #include "cases/kinds/any_case.hpp"
@@ -37,12 +38,15 @@ struct Axis {
 
 /// One run.
 struct Variant {
-  std::string folder;       ///< within the study's
-  std::string label;        ///< as people read it: "thickness x 0.5, walking"
-  std::vector<int> levels;  ///< of each axis
-  bool grid = false;        ///< of the axes alone, nothing else set
-  bool finer = false;       ///< as the variant of the axes with its levels, on a finer mesh
-  int baseline = -1;        ///< the variant that it is compared with; -1: none
+  std::string folder;            ///< within the study's
+  std::string label;             ///< as people read it: "thickness x 0.5, walking"
+  std::vector<int> levels;       ///< of each axis
+  bool grid = false;             ///< of the axes alone, nothing else set
+  bool finer = false;            ///< as the variant of the axes with its levels, on a finer mesh
+  int baseline = -1;             ///< the variant that it is compared with; -1: none
+  BarPart part = BarPart::none;  ///< which part of the error bar of `reference` it tells; none: it is compared
+  int reference = -1;            ///< the variant that it is as but for that
+  std::vector<double> scores;    ///< of a sample of the fabric: how far off each of Study::spreads is
   AnyCase definition;
   std::string identity;       ///< caseIdentity
   std::string rest_identity;  ///< with all factors 1 and the name left out: what variants of factors alone share
@@ -57,6 +61,22 @@ struct Limits {
 /// The limits that human/data/effort_limits.json has.
 Limits publishedLimits();
 
+/// A number of the fabric that spreads.
+struct StudiedSpread {
+  std::string name;      ///< of kSpreads
+  double deviation = 0;  ///< over the mean
+  std::string source;    ///< "the study", or the card
+};
+
+/// What error bars are asked for.
+struct Uncertainty {
+  std::vector<StudiedSpread> spreads;
+  std::vector<std::string> unknown;  ///< numbers of kSpreads whose spread nobody gave
+  std::string source;                ///< of the spreads that the study gives
+  int runs = 0;
+  bool step = false, mesh = false;
+};
+
 struct Study {
   std::string name, description;
   std::filesystem::path file;  ///< empty: a batch
@@ -66,6 +86,7 @@ struct Study {
   std::vector<Variant> variants;
   Limits limits;
   std::vector<PictureCase> pictures;
+  std::optional<Uncertainty> uncertainty;
 };
 
 /// Reads and checks a study and all its variants. Throws InputError: file, line, key, what is allowed; of a variant

@@ -8,25 +8,11 @@
 
 #include "cases/study/compare.hpp"
 #include "cases/study/files.hpp"
-#include "core/io/csv_text.hpp"
+#include "cases/study/table_rows.hpp"
 #include "core/io/own_file.hpp"
 
 namespace gambeson::study {
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-Json number(const std::optional<double>& x) { return x ? number(*x) : Json(nullptr); }
-
-/// A line of a table; empty cells for what is not known.
-std::string csvRow(const std::vector<std::string>& cells) {
-  std::string line;
-  for (std::size_t k = 0; k < cells.size(); ++k) line.append(k > 0 ? "," : "").append(csvText(cells[k]));
-  return line.append(1, '\n');
-}
-std::string cell(double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; }
-std::string cell(const std::optional<double>& x) { return x ? cell(*x) : ""; }
 
 /// Names in the order in which the runs have them first.
 template <class Each>
@@ -179,21 +165,28 @@ std::string elasticitiesTable(const Comparison& c) {
 }
 
 std::string meshesTable(const Comparison& c) {
-  std::string out = csvRow({"setting", "joint", "coarse_control_points", "fine_control_points", "coarse_peak_Nm",
-                            "fine_peak_Nm", "peak_difference_ratio", "history_difference_of_peak"});
+  std::string out =
+      csvRow({"setting", "joint", "coarse_control_points", "fine_control_points", "coarse_peak_Nm", "fine_peak_Nm",
+              "peak_difference_ratio", "history_difference_of_peak", "error_bar_of_peak"});
   for (const MeshRow& m : c.meshes)
     out += csvRow({m.setting, m.joint, std::to_string(m.coarse_points), std::to_string(m.fine_points),
-                   cell(m.coarse_Nm), cell(m.fine_Nm), cell(m.difference), cell(m.course)});
+                   cell(m.coarse_Nm), cell(m.fine_Nm), cell(m.difference), cell(m.course), cell(m.bar)});
   return out;
 }
 
-Json variantJson(const Study& s, const Comparison& c, std::size_t i) {
+StudyJson variantJson(const Study& s, const Comparison& c, std::size_t i) {
   const Variant& v = s.variants[i];
   const RunNumbers& r = c.runs[i];
-  Json j{{"variant", v.folder}, {"label", v.label}, {"case_hash", v.identity}, {"status", r.good ? "done" : "failed"}};
+  StudyJson j{
+      {"variant", v.folder}, {"label", v.label}, {"case_hash", v.identity}, {"status", r.good ? "done" : "failed"}};
   if (!r.good) j["why"] = r.why;
   for (std::size_t a = 0; a < s.axes.size(); ++a)
     j["levels"][s.axes[a].name] = s.axes[a].levels[static_cast<std::size_t>(v.levels[a])].label;
+  if (v.part != BarPart::none) {
+    j["error_bar_of"] = s.variants[static_cast<std::size_t>(v.reference)].folder;
+    j["part"] = nameOf(v.part);
+    if (!v.scores.empty()) j["scores"] = v.scores;
+  }
   if (v.baseline >= 0) j["baseline"] = s.variants[static_cast<std::size_t>(v.baseline)].folder;
   if (!r.good) return j;
   j["control_points"] = r.control_points;
@@ -204,17 +197,17 @@ Json variantJson(const Study& s, const Comparison& c, std::size_t i) {
   j["light"] = nameOf(c.lights[i]);
   if (r.highest()) j["highest"] = r.highest()->name;
   for (const JointNumbers& joint : r.joints) {
-    Json n{{"joint", joint.name},
-           {"applies", joint.applies()},
-           {"peak_Nm", number(joint.peak_Nm)},
-           {"peak_time_s", joint.peak_time_s},
-           {"rms_Nm", number(joint.rms_Nm)},
-           {"standing_Nm", number(joint.standing_Nm)},
-           {"peak_above_standing_Nm", number(peakAboveStanding(r, joint))},
-           {"of_natural", number(joint.part())},
-           {"normal_mean_N", joint.normal_N},
-           {"friction_mean_N", joint.friction_N},
-           {"friction_at_peak_Nm", number(joint.friction_Nm)}};
+    StudyJson n{{"joint", joint.name},
+                {"applies", joint.applies()},
+                {"peak_Nm", number(joint.peak_Nm)},
+                {"peak_time_s", joint.peak_time_s},
+                {"rms_Nm", number(joint.rms_Nm)},
+                {"standing_Nm", number(joint.standing_Nm)},
+                {"peak_above_standing_Nm", number(peakAboveStanding(r, joint))},
+                {"of_natural", number(joint.part())},
+                {"normal_mean_N", joint.normal_N},
+                {"friction_mean_N", joint.friction_N},
+                {"friction_at_peak_Nm", number(joint.friction_Nm)}};
     if (const JointRatio* ratio = ratioOf(c, i, joint.name)) {
       n["peak_ratio"] = number(ratio->peak);
       n["rms_ratio"] = number(ratio->rms);
@@ -237,7 +230,7 @@ Json variantJson(const Study& s, const Comparison& c, std::size_t i) {
   return j;
 }
 
-Json elasticityJson(const ElasticityRow& e) {
+StudyJson elasticityJson(const ElasticityRow& e) {
   return {{"setting", e.setting},
           {"joint", e.joint},
           {"quantity", e.quantity},
@@ -247,17 +240,18 @@ Json elasticityJson(const ElasticityRow& e) {
           {"inertia", number(e.e.inertia)},
           {"drag", number(e.e.drag)},
           {"sum", number(e.e.sum())},
-          {"rest", e.e.sum() ? number(1 - *e.e.sum()) : Json(nullptr)},
+          {"rest", e.e.sum() ? number(1 - *e.e.sum()) : StudyJson(nullptr)},
           {"predicted_thickness_exponent", number(e.e.thicknessExponent())},
           {"measured_thickness_exponent", number(e.measured)}};
 }
 
 std::string studyJson(const Study& s, const Comparison& c) {
-  Json j{{"name", s.name}, {"version", GAMBESON_VERSION}};
+  StudyJson j{{"name", s.name}, {"version", GAMBESON_VERSION}};
   const Verdict& v = c.verdict;
-  const Json named = v.take >= 0 ? Json(c.input.options[static_cast<std::size_t>(v.take)].name) : Json(nullptr);
-  j["verdict"] = {{"take", v.chosen ? named : Json(nullptr)},
-                  {"worst", v.chosen ? Json(nullptr) : named},
+  const StudyJson named =
+      v.take >= 0 ? StudyJson(c.input.options[static_cast<std::size_t>(v.take)].name) : StudyJson(nullptr);
+  j["verdict"] = {{"take", v.chosen ? named : StudyJson(nullptr)},
+                  {"worst", v.chosen ? StudyJson(nullptr) : named},
                   {"light", nameOf(v.cover)},
                   {"light_of_torque", nameOf(v.light)},
                   {"doubt", v.doubt},
@@ -273,7 +267,10 @@ std::string studyJson(const Study& s, const Comparison& c) {
                                      : v.surety == Surety::fairly ? "fairly"
                                                                   : "no"},
                   {"numbers", v.numbers},
+                  {"error", number(c.input.error())},
                   {"mesh_error", number(c.input.mesh_error)},
+                  {"step_error", number(c.input.step_error)},
+                  {"fabric_error", number(c.input.fabric_error)},
                   {"next_costs_times", number(v.order)},
                   {"holds_up_to", number(v.holds_up_to)}};
   for (const auto& d : c.input.doubts)
@@ -299,8 +296,10 @@ std::string studyJson(const Study& s, const Comparison& c) {
                            {"coarse_peak_Nm", number(m.coarse_Nm)},
                            {"fine_peak_Nm", number(m.fine_Nm)},
                            {"peak_difference_ratio", number(m.difference)},
-                           {"history_difference_of_peak", number(m.course)}});
-  j["variants"] = Json::array();
+                           {"history_difference_of_peak", number(m.course)},
+                           {"error_bar_of_peak", number(m.bar)}});
+  if (s.uncertainty) j["uncertainty"] = uncertaintyJson(s, c);
+  j["variants"] = StudyJson::array();
   for (std::size_t i = 0; i < s.variants.size(); ++i) j["variants"].push_back(variantJson(s, c, i));
   return j.dump(2) + "\n";
 }
@@ -313,6 +312,7 @@ void writeStudyTables(const Study& s, const Comparison& c, const std::filesystem
   writeOwnFile(out / files::exponents, exponentsTable(c));
   writeOwnFile(out / files::elasticities, elasticitiesTable(c));
   writeOwnFile(out / files::meshes, meshesTable(c));
+  writeOwnFile(out / files::uncertainty, uncertaintyTable(s, c));
   writeOwnFile(out / files::numbers, studyJson(s, c));
 }
 

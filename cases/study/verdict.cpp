@@ -117,6 +117,31 @@ void addMeshError(const Comparison& c, VerdictInput& in) {
   in.mesh_where = where.size() == 1 ? where[0] : where.empty() ? "" : fmt::format("{} pairs of runs", where.size());
 }
 
+/// Of the joints that decide in the settings whose bars are known; what a motion that costs next to nothing is off by
+/// decides nothing.
+void addOtherErrors(const Comparison& c, VerdictInput& in) {
+  const auto costOf = [&](const Budget& b, double torque_Nm) {
+    const JointNumbers* j = c.runs[b.reference].decisive();
+    return j && j->natural_Nm && *j->natural_Nm > 0 ? torque_Nm / *j->natural_Nm : torque_Nm;
+  };
+  double largest = 0;
+  for (const bool scaled : {false, true})
+    for (const Budget& b : c.budgets)
+      for (const BarredNumber& n : b.numbers) {
+        const JointNumbers* j = c.runs[b.reference].decisive();
+        if (!j || n.what.of != j->name || n.what.quantity != Headline::Quantity::peak) continue;
+        if (!scaled) {
+          largest = std::max(largest, costOf(b, n.value));
+          continue;
+        }
+        const auto take = [&](const std::optional<double>& part, std::optional<double>& error) {
+          if (part) error = std::max(error.value_or(0), costOf(b, *part) / largest);
+        };
+        take(n.bar.step, in.step_error);
+        take(n.bar.fabric, in.fabric_error);
+      }
+}
+
 }  // namespace
 
 VerdictInput verdictInput(const Study& s, const Comparison& c) {
@@ -169,6 +194,7 @@ VerdictInput verdictInput(const Study& s, const Comparison& c) {
     in.options.push_back(std::move(option));
   }
   addMeshError(c, in);
+  addOtherErrors(c, in);
   if (in.sized) addExponents(s, c, in);
   addDoubts(s, c, option_of, in);
   addStretch(s, c, option_of, in);

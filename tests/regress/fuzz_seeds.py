@@ -75,7 +75,8 @@ STUDY = """{
   "name": "slip", "case": "cloth.json",
   "axes": [{"path": "factors.thickness", "values": [0.5, 1]},
            {"name": "mesh", "sets": [{"garment.sheet.cells_u": 3}, {"garment.sheet.cells_u": 4}], "labels": ["coarse", "fine"]}],
-  "variants": [{"label": "slow", "at": {"mesh": "fine"}, "set": {"time.max_step": "0.1 ms"}}]
+  "variants": [{"label": "slow", "at": {"mesh": "fine"}, "set": {"time.max_step": "0.1 ms"}}],
+  "uncertainty": {"runs": 12, "seed": 2, "spread": {"bending": "10 %", "friction": 0.2}, "finer": 1.5, "step_duration": "10 ms"}
 }
 """
 OBJ = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"

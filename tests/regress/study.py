@@ -34,7 +34,7 @@ def study(folder, **more):
 
 def contents(out):
     """Everything but what timings are in."""
-    files = {name: (out / name).read_bytes() for name in ("study.json", "variants.csv", "curves.csv", "exponents.csv", "elasticities.csv", "meshes.csv", "report.html")}
+    files = {name: (out / name).read_bytes() for name in ("study.json", "variants.csv", "curves.csv", "exponents.csv", "elasticities.csv", "meshes.csv", "uncertainty.csv", "report.html")}
     for png in sorted((out / "pictures").glob("*.png")):
         files["pictures/" + png.name] = png.read_bytes()
     for variant in json.loads(files["study.json"])["variants"]:

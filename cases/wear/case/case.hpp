@@ -242,7 +242,7 @@ struct AirCase {
 /// Multiples of what the case says, 1 each unless a study asks what a torque depends on; cases/wear/case/factors.hpp
 /// applies them.
 struct FactorsCase {
-  double thickness = 1, bending = 1, membrane = 1, weight = 1, inertia = 1, drag = 1;
+  double thickness = 1, bending = 1, membrane = 1, weight = 1, inertia = 1, drag = 1, friction = 1;
   bool operator==(const FactorsCase&) const = default;
 };
 

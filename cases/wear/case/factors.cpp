@@ -31,6 +31,16 @@ void scale(Fabric& fabric, const FactorsCase& f) {
       fabric.law);
 }
 
+/// All that resists sliding.
+void scale(FrictionLaw& law, double friction) {
+  law.kinetic *= friction;
+  law.still *= friction;
+  law.viscosity *= friction;
+}
+void scale(std::optional<FrictionLaw>& law, double friction) {
+  if (law) scale(*law, friction);
+}
+
 /// What a case gives in the place of the fabric's.
 void scale(MembraneModel& m, const FactorsCase& f) {
   for (double* stiffness : {&m.spring_N_per_m, &m.weft_N_per_m, &m.warp_N_per_m, &m.shear_N_per_m})
@@ -48,7 +58,11 @@ Case withFactors(const Case& c) {
     if (g.fabric) scale(*g.fabric, f);
     scale(g.cloth.membrane, f);
     for (Fabric& other : g.other_fabrics) scale(other, f);
+    scale(g.friction, f.friction);
   }
+  for (ObstacleCase& o : out.obstacles) scale(o.friction, f.friction);
+  scale(out.contact.friction, f.friction);
+  scale(out.contact.friction_cloth, f.friction);
   if (out.contact.layer_m) *out.contact.layer_m *= f.thickness;
   out.gravity_m_per_s2 = (f.weight / f.inertia) * out.gravity_m_per_s2;
   out.air.drag_kg_per_m2s *= f.drag;
@@ -66,7 +80,8 @@ std::string factorsText(const FactorsCase& f) {
   std::string s;
   for (const auto& [name, value] :
        {std::pair("thickness", f.thickness), std::pair("bending", f.bending), std::pair("membrane", f.membrane),
-        std::pair("weight", f.weight), std::pair("inertia", f.inertia), std::pair("drag", f.drag)})
+        std::pair("weight", f.weight), std::pair("inertia", f.inertia), std::pair("drag", f.drag),
+        std::pair("friction", f.friction)})
     if (value != 1) s += fmt::format("{}{} x {}", s.empty() ? "" : ", ", name, value);
   return s;
 }

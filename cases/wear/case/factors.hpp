@@ -13,7 +13,8 @@ namespace gambeson {
 ///     weight w:    gravity w
 ///     inertia i:   density i, gravity 1/i
 ///     drag d:      drag coefficient d
-/// Supports, friction and the compliance of contact stay. Curvatures of the bending law stay (kappa0: the same B0 rule
+///     friction f:  every coefficient of friction, and viscosity, f
+/// Supports and the compliance of contact stay. Curvatures of the bending law stay (kappa0: the same B0 rule
 /// at every thickness).
 /// The seams of garment files are not yet read here: scaleSeams does the same to all seams of a built garment.
 Case withFactors(const Case& c);

@@ -52,6 +52,8 @@ Object factorsTable() {
       .number("weight", &F::weight, "", range, "of the acceleration of free fall")
       .number("inertia", &F::inertia, "", range, "of the density; free fall is divided by it, so that the weight stays")
       .number("drag", &F::drag, "", range, "of the drag coefficient")
+      .number("friction", &F::friction, "", range, "of every coefficient of friction, and of viscosity")
+      .unwritten()
       .build();
 }
 

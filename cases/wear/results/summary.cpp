@@ -256,7 +256,8 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
   j["planned_to_s"] = s.end_s;
   const FactorsCase& f = s.definition.factors;
   j["factors"] = {{"thickness", f.thickness}, {"bending", f.bending}, {"membrane", f.membrane},
-                  {"weight", f.weight},       {"inertia", f.inertia}, {"drag", f.drag}};
+                  {"weight", f.weight},       {"inertia", f.inertia}, {"drag", f.drag},
+                  {"friction", f.friction}};
   j["garments"] = Json::array();
   for (const GarmentMeasure& l : garmentMeasuresOf(s)) {
     Json garment{{"garment", l.name},    {"fabric", l.fabric},           {"mass_kg", l.mass_kg},

@@ -157,12 +157,12 @@ TEST(Verdict, SaysHowSureThatIs) {
   VerdictInput in = table({0.02, 0.04, 0.08});
   in.mesh_error = 0.06;
   in.mesh_where = "walking, thickness x 1";
-  EXPECT_TRUE(has(verdictOf(in).choice, "Coarse and fine mesh differ by less, 6 %.")) << verdictOf(in).choice;
+  EXPECT_TRUE(has(verdictOf(in).choice, "The error bar is smaller, 6 %.")) << verdictOf(in).choice;
   EXPECT_EQ(verdictOf(in).surety, Surety::yes);
   EXPECT_TRUE(has(verdictOf(in).numbers, "Error bar of the peaks: 6 % either way")) << verdictOf(in).numbers;
   EXPECT_TRUE(has(verdictOf(in).numbers, "(walking, thickness x 1)"));
   in.mesh_error = 0.3;
-  EXPECT_TRUE(has(verdictOf(in).choice, "differ by 30 %: too much to be sure"));
+  EXPECT_TRUE(has(verdictOf(in).choice, "The error bar is 30 %: too much to be sure"));
   EXPECT_EQ(verdictOf(in).surety, Surety::no);
 }
 

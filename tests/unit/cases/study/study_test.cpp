@@ -262,7 +262,7 @@ TEST(Study, NamesOfItsOwnFilesAreTaken) {
       R"({"name": "s", "case": "cloth.json", "variants": [{"label": "NAME", "set": {"contact.friction": 0.2}}]})";
   const Folder folder;
   for (const std::string name : {"report.html",      "study.json", "variants.csv", "curves.csv",    "exponents.csv",
-                                 "elasticities.csv", "meshes.csv", "study.slurm",  "compare.slurm", "compare.log",
+                                 "elasticities.csv", "meshes.csv", "uncertainty.csv", "study.slurm",  "compare.slurm", "compare.log",
                                  "submit.sh",        "cases",      "logs",         "pictures",      "Cases",
                                  "REPORT.html",      ".",          "..",           ".lock",         ".gambeson"}) {
     SCOPED_TRACE(name);

@@ -119,6 +119,23 @@ TEST(Factors, MassWeightInertiaDragAndLayer) {
   EXPECT_EQ(garments[0].control_points, 18);
 }
 
+/// With bodies, with cloth, and where a garment or an obstacle has its own.
+TEST(Factors, FrictionTakesAllThatResistsSliding) {
+  const Case c = libraryCase("sphere_drape", {"factors.friction=1.5", "contact.friction={\"kinetic\": 0.2, \"static\": 0.4, "
+                                              "\"viscosity\": 2}", "contact.friction_cloth=0.3", "garment.friction=0.1",
+                                              "obstacles[0].friction=0.6"});
+  const Case with = withFactors(c);
+  EXPECT_DOUBLE_EQ(with.contact.friction.kinetic, 0.3);
+  EXPECT_DOUBLE_EQ(with.contact.friction.still, 0.6);
+  EXPECT_DOUBLE_EQ(with.contact.friction.viscosity, 3);
+  EXPECT_DOUBLE_EQ(with.contact.friction_cloth->kinetic, 0.45);
+  EXPECT_DOUBLE_EQ(with.garments[0].friction->kinetic, 0.15);
+  EXPECT_DOUBLE_EQ(with.obstacles[0].friction->still, 0.9);
+  EXPECT_EQ(factorsText(c.factors), "friction x 1.5");
+  // A case without it is written as it always was: its hash stays, and what was begun goes on.
+  EXPECT_EQ(writeCase(libraryCase("sphere_drape")).find("\"friction\": 1\n"), std::string::npos);
+}
+
 /// A membrane of triangles that the case gives numbers of its own scales as the fabric's would.
 TEST(Factors, ScaleAMembraneOfItsOwn) {
   Case c = libraryCase("sphere_drape", {"factors.thickness=0.5", "factors.membrane=3", "garment.model=triangles",
