@@ -11,12 +11,12 @@ namespace gambeson::study::files {
 inline constexpr std::string_view report = "report.html", numbers = "study.json", variants = "variants.csv",
                                   curves = "curves.csv", exponents = "exponents.csv", elasticities = "elasticities.csv",
                                   meshes = "meshes.csv", script = "study.slurm", compare_script = "compare.slurm",
-                                  compare_log = "compare.log", submit = "submit.sh";
+                                  compare_log = "compare.log", submit = "submit.sh", maps = "maps.csv";
 /// Folders.
 inline constexpr std::string_view cases = "cases", logs = "logs", pictures = "pictures";
 
 inline constexpr std::array written{report, numbers, variants,       curves,      exponents, elasticities,
-                                    meshes, script,  compare_script, compare_log, submit};
+                                    meshes, script,  compare_script, compare_log, submit,    maps};
 inline constexpr std::array folders{cases, logs, pictures};
 
 /// What the picture of a variant is called (in the folder of pictures): its wish counts from 0.

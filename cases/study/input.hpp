@@ -1,6 +1,11 @@
 #pragma once
 /// A study as its file has it, before it becomes variants.
 
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "cases/study/study.hpp"
 
 namespace gambeson::study {
@@ -30,6 +35,14 @@ struct ElasticityInput {
   double step = 0.1;
   JsonNode where;
 };
+struct OptimiseInput {
+  Aim aim = Aim::torque;
+  std::vector<std::string> regions, keep, joints;
+  std::optional<double> mass_kg, limit_Nm, step;
+  std::array<double, 2> between{0.5, 1.5};
+  int runs = 20;
+  JsonNode repeats, finer;
+};
 struct StudyInput {
   std::string name, description;
   std::filesystem::path file;
@@ -37,10 +50,9 @@ struct StudyInput {
   std::vector<AxisInput> axes;
   std::vector<ExtraInput> variants;
   std::optional<ElasticityInput> elasticities;
+  std::optional<OptimiseInput> optimise;
   Limits limits = publishedLimits();
-  std::vector<PictureCase> pictures{
-      {PictureTime::peak, 0, PictureField::stress, View::front_right, PictureAround::wearer, 640, 720},
-  };
+  std::optional<std::vector<PictureCase>> pictures;
 };
 
 }  // namespace gambeson::study

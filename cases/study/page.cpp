@@ -96,11 +96,14 @@ std::string multiplesOf(const Study& s) {
       return x.number.value_or(1) < y.number.value_or(1);
     });
     if (!least->number) continue;
+    const std::string& path = least->set[0].path;
     text += fmt::format(
         "{}\u201c{} x {}\u201d means {} times the {} that the garment was designed with{}; x 1 is the "
         "design.",
         text.empty() ? "" : " ", a.name, least->label, least->label, a.name,
-        a.role == Role::thickness ? ", in every garment, and is no measure in mm" : "");
+        a.role != Role::thickness      ? ""
+        : path.starts_with("factors.") ? ", in every garment, and is no measure in mm"
+                                       : ", in that region, and is no measure in mm");
   }
   return text;
 }
@@ -278,6 +281,8 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
     if (!what.empty()) body += pageSectionOf(id, title, lead, what);
   };
   if (!batch) body += headline(s, c, pictures);
+  pageSection("map", "The thickness map",
+              "How thick each region of the garment should be, so that it costs its wearer least.", mapOf(s));
   body += viewerSection(views);
   const bool joints = std::any_of(c.runs.begin(), c.runs.end(), [](const RunNumbers& r) { return r.highest(); });
   const std::string shares = anyNatural(c) ? ": in per cent of the joint\u2019s natural moment, in Nm," : " in Nm,";

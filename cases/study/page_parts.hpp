@@ -58,6 +58,9 @@ std::string forcesOf(const Study& study, const Comparison& c);
 std::string kindsOf(const Study& study, const Comparison& c);
 std::string thicknessPage(const Study& study, const Comparison& c);
 std::string clothOf(const Study& study, const Comparison& c);
+// page_map.cpp
+/// The thickness map that was found; empty where none was searched.
+std::string mapOf(const Study& study);
 // page_trust.cpp
 std::string checksOf(const Study& study, const Comparison& c);
 std::string leftOutOf(const Study& study, const Comparison& c);

@@ -12,6 +12,8 @@
 #include "cases/input/units.hpp"
 #include "cases/study/files.hpp"
 #include "cases/study/input.hpp"
+#include "cases/study/make_variant.hpp"
+#include "cases/study/read_parts.hpp"
 #include "core/error.hpp"
 
 namespace gambeson::study {
@@ -36,25 +38,6 @@ std::string textOf(const JsonNode& value) {
     default:
       return "";
   }
-}
-
-/// What a folder's name may have.
-std::string safe(const std::string& text) {
-  std::string s;
-  for (const char c : text)
-    s += (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+'
-             ? c
-             : '_';
-  return s;
-}
-
-std::vector<Setting> settingsOf(const Entry& entry) {
-  if (entry.node.type != JsonNode::Type::object)
-    entry.fail("expected an object { } of path: value, not " + describe(entry.node));
-  if (entry.node.children.empty()) entry.fail("is empty; allowed: at least one path: value");
-  std::vector<Setting> all;
-  for (const JsonNode& child : entry.node.children) all.push_back({child.key, child});
-  return all;
 }
 
 /// What a value of the case is about.
@@ -118,7 +101,7 @@ Axis axisOf(const Entry& entry, const AxisInput& in) {
   axis.name = in.name.empty() ? in.path.substr(in.path.rfind('.') + 1) : in.name;
   if (axis.name.empty()) entry.failAt("name", "is required where sets are given");
   axis.unit = in.unit;
-  axis.multiple = in.path.starts_with("factors.");
+  axis.multiple = in.path.starts_with("factors.") || isRegionFactor(in.path);
   axis.labelled = !in.labels.empty();
   const std::string key = sets ? "sets" : "values";
   const JsonNode& list = sets ? in.sets : in.values;
@@ -136,7 +119,7 @@ Axis axisOf(const Entry& entry, const AxisInput& in) {
     if (level.label.empty())
       entry.failAt("labels", "is required: what no number, text or flag names needs a label for each level");
     const std::string name = in.labels.empty() ? axis.name + "_" + level.label : level.label;
-    level.folder = safe(name);
+    level.folder = folderName(name);
     // A factor is a multiple, and read as such: "thickness x 0.5" is no length.
     level.name = !in.labels.empty() ? level.label
                                     : fmt::format("{} {}{}{}{}", axis.name, axis.multiple ? "x " : "", level.label,
@@ -191,6 +174,13 @@ std::map<std::size_t, int> levelsAt(const Entry& entry, const Study& s) {
   return levels;
 }
 
+/// The factors of regions are multiples too, of which elasticities know nothing.
+bool isOfRegion(const Axis& axis) {
+  return std::any_of(axis.levels.begin(), axis.levels.end(), [](const Level& l) {
+    return std::any_of(l.set.begin(), l.set.end(), [](const Setting& s) { return isRegionFactor(s.path); });
+  });
+}
+
 bool isFactor(const Axis& axis) {
   return std::any_of(axis.levels.begin(), axis.levels.end(), [](const Level& l) {
     return std::any_of(l.set.begin(), l.set.end(), [](const Setting& s) { return s.path.starts_with("factors"); });
@@ -214,7 +204,7 @@ void findBaseline(const Entry& root, const StudyInput& in, Study& s) {
   }
   for (std::size_t a = 0; a < s.axes.size(); ++a)
     for (std::size_t l = 0; l < s.axes[a].levels.size(); ++l)
-      if (isFactor(s.axes[a]) && s.axes[a].levels[l].number == 1.0) {
+      if ((isFactor(s.axes[a]) || isOfRegion(s.axes[a])) && s.axes[a].levels[l].number == 1.0) {
         s.compared.push_back(static_cast<int>(a));
         s.baseline.push_back(static_cast<int>(l));
       }
@@ -239,7 +229,6 @@ class Maker {
     Variant v;
     v.levels = std::move(levels);
     v.grid = more.empty();
-    JsonNode root = base_;
     std::vector<Setting> all = common_;
     for (std::size_t a = 0; a < study_.axes.size(); ++a) {
       const Axis& axis = study_.axes[a];
@@ -250,52 +239,18 @@ class Maker {
     }
     all.insert(all.end(), more.begin(), more.end());
     if (!extra_label.empty()) {
-      v.folder += (v.folder.empty() ? "" : "__") + safe(extra_label);
+      v.folder += (v.folder.empty() ? "" : "__") + folderName(extra_label);
       v.label += (v.label.empty() ? "" : ", ") + extra_label;
     }
     if (const std::string why = files::unfitFolder(v.folder); !why.empty()) at.fail(fmt::format("a variant {}", why));
     if (!folders_.insert(v.folder).second)
       at.fail(fmt::format("there are two variants {}; allowed: labels that differ", v.label));
     if (study_.variants.size() >= most_variants) tooMany(at);
-    try {
-      for (const Setting& s : all) overrideValue(root, s.path, s.value, entry_.file);
-      v.definition = readAnyCase(root, in_.file);
-    } catch (const InputError& e) {
-      Mistakes of_variant;
-      for (const InputError& one : mistakesOf(e))
-        of_variant.add(InputError(one.where(), fmt::format("{} (variant {})", one.reason(), v.label)));
-      of_variant.say();
-    }
-    introduce(v);
-    identify(v);
+    defineVariant(study_, base_, in_.file, all, v);
     study_.variants.push_back(std::move(v));
   }
 
-  static void identify(Variant& v) {
-    v.identity = std::visit([](const auto& c) { return caseIdentity(c); }, v.definition);
-    if (const auto* c = std::get_if<Case>(&v.definition)) {
-      Case rest = *c;
-      rest.factors = {};
-      rest.name = "rest";
-      v.rest_identity = caseIdentity(rest);
-    }
-  }
-
  private:
-  /// The name and description of the case tell its own motion, which a variant may replace: a variant has the study's.
-  void introduce(Variant& v) const {
-    const bool ends = study_.name.ends_with('?') || study_.name.ends_with('!') || study_.name.ends_with('.');
-    std::string label = v.label;
-    if (ends && !label.empty()) label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-    std::visit(
-        [&](auto& c) {
-          c.name = study_.name + (ends ? " " : ": ") + label;
-          c.description = fmt::format("One run of the study \"{}\".{}{}", study_.name,
-                                      study_.description.empty() ? "" : " ", study_.description);
-        },
-        v.definition);
-  }
-
   const Entry& entry_;
   const StudyInput& in_;
   Study& study_;
@@ -337,6 +292,16 @@ int baselineLevel(const Study& s, std::size_t axis) {
   for (std::size_t k = 0; k < s.compared.size(); ++k)
     if (s.compared[k] == static_cast<int>(axis)) return s.baseline[k];
   return 0;
+}
+
+std::vector<PictureCase> usualPictures(const StudyInput& in) {
+  PictureCase stress{PictureTime::peak, 0, PictureField::stress, View::front_right, PictureAround::wearer, 640, 720};
+  if (!in.optimise) return {stress};
+  std::vector<PictureCase> all{stress, stress, stress};
+  all[0].field = all[1].field = PictureField::thickness;
+  all[0].around = all[1].around = PictureAround::garment;
+  all[1].view = View::back_left;
+  return all;
 }
 
 void addElasticities(const Entry& root, const ElasticityInput& in, Maker& maker, Study& s) {
@@ -384,6 +349,19 @@ void linkBaselines(Study& s) {
 
 }  // namespace
 
+bool isRegionFactor(const std::string& path) {
+  return path.starts_with("garment") && path.find(".regions[") != std::string::npos && path.ends_with("].thickness");
+}
+
+std::vector<Setting> settingsOf(const Entry& entry) {
+  if (entry.node.type != JsonNode::Type::object)
+    entry.fail("expected an object { } of path: value, not " + describe(entry.node));
+  if (entry.node.children.empty()) entry.fail("is empty; allowed: at least one path: value");
+  std::vector<Setting> all;
+  for (const JsonNode& child : entry.node.children) all.push_back({child.key, child});
+  return all;
+}
+
 Study readStudy(const std::filesystem::path& file) {
   const JsonNode root = readJson(file);
   const std::string name = file.string();
@@ -395,8 +373,13 @@ Study readStudy(const std::filesystem::path& file) {
   s.description = in.description;
   s.file = file;
   s.limits = in.limits;
-  s.pictures = in.pictures;
-  if (in.axes.empty() && in.variants.empty()) entry.fail("one of axes or variants is required, and not empty");
+  s.pictures = in.pictures.value_or(usualPictures(in));
+  if (in.optimise) {
+    readOptimise(entry, in, s);
+    return s;
+  }
+  if (in.axes.empty() && in.variants.empty())
+    entry.fail("one of axes, variants or optimise is required, and not empty");
   for (std::size_t a = 0; a < in.axes.size(); ++a) {
     const Entry at = entry.member(*root.find("axes")).item(a);
     Axis axis = axisOf(at, in.axes[a]);
@@ -433,7 +416,7 @@ Study batchOf(const std::vector<std::filesystem::path>& cases) {
   std::map<std::string, std::filesystem::path> seen;
   for (const std::filesystem::path& file : cases) {
     Variant v;
-    v.folder = v.label = safe(file.stem().string());
+    v.folder = v.label = folderName(file.stem().string());
     v.grid = true;
     if (const std::string why = files::unfitFolder(v.folder); !why.empty())
       throw InputError({"command line", 0, file.string()}, fmt::format("a case {}", why));
@@ -442,7 +425,7 @@ Study batchOf(const std::vector<std::filesystem::path>& cases) {
                        fmt::format("has the same name as {}; allowed: cases whose files have names of their own",
                                    other->second.string()));
     v.definition = readAnyCase(file);
-    Maker::identify(v);
+    identify(v);
     s.variants.push_back(std::move(v));
   }
   return s;

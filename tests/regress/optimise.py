@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""The search of a thickness map, as a whole: killed and resumed it comes to the same map, byte for byte.
+
+    optimise.py [GAMBESON]             three regions of tiny shorts, a few runs
+    optimise.py [GAMBESON] --shorts    shorts_map of the library: the map's gain is above its error bar, at equal mass,
+                                       and the finer mesh has it; killed and resumed
+
+What is compared: study.json, maps.csv, the page, and the results of every run.
+"""
+
+import csv
+import json
+import random
+import subprocess
+import sys
+import time
+
+from common import HERE, SOURCE, Folder, check, command, results, run
+
+
+def tiny(folder, **more):
+    case = json.loads((HERE / "shorts.json").read_text())
+    case["garment"]["shorts"]["cell"] = "80 mm"
+    case["garment"]["regions"] = [
+        {"name": "trunk", "parts": [{"patch": "trunk_left"}, {"patch": "trunk_right"}]},
+        {"name": "outer", "parts": [{"patch": "outer_left"}, {"patch": "outer_right"}]},
+        {"name": "inner", "parts": [{"patch": "inner_left"}, {"patch": "inner_right"}]}]
+    case["dressing"] = {"projecting": {"clearance": "5 mm", "grow": "40 ms"}, "settle": "20 ms"}
+    case["human"]["motion"]["walk"]["lead_in"] = "40 ms"
+    case["time"] = {"duration": "60 ms", "max_step": "0.5 ms"}
+    case["output"] = {"window": "10 ms", "frame": "20 ms", "checkpoint": "20 ms", "viewer": False}
+    (folder / "shorts.json").write_text(json.dumps(case))
+    text = {"name": "tiny", "case": "shorts.json", "pictures": [{"time": "end", "field": "thickness", "width": 200, "height": 160}],
+            "optimise": {"minimise": "torque", "between": [0.6, 1.5], "runs": 5, **more}}
+    (folder / "a.study.json").write_text(json.dumps(text, indent=1))
+    return folder / "a.study.json"
+
+
+def contents(out):
+    files = {name: (out / name).read_bytes() for name in ("study.json", "maps.csv", "variants.csv", "report.html")}
+    for row in csv.DictReader((out / "maps.csv").open()):
+        for name, content in results(out / row["variant"]).items():
+            files[row["variant"] + "/" + name] = content
+    return files
+
+
+def interrupted(folder, file, kills):
+    begin = time.monotonic()
+    done = run("study", file, "--out", folder / "whole", "--threads", 2)
+    check(done.returncode == 0, f"the search failed: {done.stdout} {done.stderr}")
+    took_s = time.monotonic() - begin
+    chance = random.Random(20130620)
+    for _ in range(kills):
+        process = subprocess.Popen(command("study", file, "--out", folder / "cut", "--resume", "--threads", 1),
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            process.wait(chance.uniform(0.2, 0.5) * took_s)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+    last = run("study", file, "--out", folder / "cut", "--resume", "--threads", 1)
+    check(last.returncode == 0, f"the resumed search failed: {last.stdout} {last.stderr}")
+    whole, cut = contents(folder / "whole"), contents(folder / "cut")
+    other = [name for name in whole.keys() | cut.keys() if whole.get(name) != cut.get(name)]
+    check(not other, f"these differ: {other}")
+    return json.loads(whole["study.json"])["optimise"]
+
+
+def equal_mass(numbers, within):
+    for pair in [numbers] + numbers.get("repeats", []) + ([numbers["finer"]] if "finer" in numbers else []):
+        start, best = pair["start"]["mass_kg"], pair["best"]["mass_kg"]
+        check(abs(best / start - 1) < within, f"the map weighs {best} kg, the start {start}")
+
+
+def small(folder):
+    found = interrupted(folder, tiny(folder), 1)
+    rows = list(csv.DictReader((folder / "whole/maps.csv").open()))
+    tried = [r for r in rows if r["what"] == "search"]
+    check(len(tried) == found["runs"] == 5, f"{found['runs']} maps: {rows}")
+    check(len({r["variant"] for r in tried}) == 5, "a map was tried twice")
+    check(all(abs(float(r["mass_kg"]) / float(tried[0]["mass_kg"]) - 1) < 1e-6 for r in tried), f"masses differ: {tried}")
+    least = min(tried, key=lambda r: float(r["torque_Nm"]))
+    check(found["best"]["variant"] == least["variant"], f"the best is {least}, not {found['best']}")
+    check(len(found["repeats"]) == 1, "nothing was repeated")
+    done = run("study", folder / "a.study.json", "--out", folder / "whole", "--compare")
+    check(done.returncode == 0, f"--compare gave {done.returncode}: {done.stderr}")
+    print(f"{found['gain']:.3f} of the torque in {found['runs']} runs, bar {found['error_bar']:.3f}")
+
+
+def refused(folder):
+    file = tiny(folder)
+    for key, value, said in (("keep", ["hem"], 'optimise.keep[0]: there is no region "hem"; allowed: trunk, outer, inner'),
+                             ("keep", ["trunk", "outer"], "1 region of the garment is free"),
+                             ("limit", 3, "optimise.limit"), ("between", [1.2, 1.5], "leaves out the case's own factor"),
+                             ("joints", ["knee_left"], "the case does not analyse"), ("runs", 1, "optimise.runs"),
+                             ("repeats", [{"time.step_safety": 7}], "time.step_safety")):
+        text = json.loads(file.read_text())
+        text["optimise"][key] = value
+        (folder / "b.study.json").write_text(json.dumps(text, indent=1))
+        done = run("study", folder / "b.study.json", "--out", folder / "out", "--check")
+        check(done.returncode == 2 and "b.study.json:" in done.stderr and said in done.stderr, f"{key}: {done.returncode} {done.stderr}")
+    done = run("study", file, "--out", folder / "out", "--engine", "slurm")
+    check(done.returncode == 2 and "--engine" in done.stderr, f"{done.returncode} {done.stderr}")
+    check(not (folder / "out").exists(), "what was refused left something")
+
+
+def shorts(folder):
+    numbers = interrupted(folder, SOURCE / "cases/library/shorts_map.study.json", 3)
+    equal_mass(numbers, 1e-5)
+    check(numbers["sure"], f"the gain is not sure: {numbers['gain']} with a bar of {numbers['error_bar']}")
+    check(numbers["gain_on_finer_mesh"] > numbers["noise"], f"the finer mesh gains {numbers['gain_on_finer_mesh']}")
+    print(f"gain {numbers['gain']:.3f}, error bar {numbers['error_bar']:.3f}, on the finer mesh {numbers['gain_on_finer_mesh']:.3f}")
+
+
+def main():
+    for test in (shorts,) if "--shorts" in sys.argv else (refused, small):
+        with Folder() as folder:
+            test(folder)
+            print(test.__name__, "good")
+
+
+if __name__ == "__main__":
+    main()
