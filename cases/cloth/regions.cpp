@@ -19,7 +19,7 @@ int hundredths(double fraction) { return static_cast<int>(std::lround(kHundredth
 /// A part of a region on one patch.
 struct Placed {
   std::size_t region = 0, part = 0;
-  const RegionPart* rectangle = nullptr;
+  const RegionRectangle* rectangle = nullptr;
 };
 
 [[noreturn]] void reject(const Placed& at, const char* key, const std::string& reason) {
@@ -28,7 +28,7 @@ struct Placed {
 
 /// Of each patch the parts that lie on it.
 std::vector<std::vector<Placed>> partsByPatch(const std::vector<RegionCase>& regions, const Garment& g) {
-  static const RegionPart whole;
+  static const RegionRectangle whole;
   std::vector<std::vector<Placed>> on(g.patches.size());
   for (std::size_t i = 0; i < regions.size(); ++i)
     for (std::size_t k = 0; k < std::max<std::size_t>(regions[i].parts.size(), 1); ++k) {
@@ -47,7 +47,7 @@ std::vector<std::vector<Placed>> partsByPatch(const std::vector<RegionCase>& reg
 }
 
 /// How many equal parts of a patch's range have all borders between them.
-int equalParts(const std::vector<Placed>& placed, std::array<double, 2> RegionPart::*range) {
+int equalParts(const std::vector<Placed>& placed, std::array<double, 2> RegionRectangle::*range) {
   int step = kHundredths;
   for (const Placed& one : placed)
     for (const double border : one.rectangle->*range) step = std::gcd(step, hundredths(border));
@@ -70,7 +70,7 @@ void applyRegions(const std::vector<RegionCase>& regions, Garment& g) {
     const std::string patch = g.patch_names.empty() ? fmt::format("{}", p) : g.patch_names[p];
     if (g.fields[p].thickness)
       reject(on[p][0], "patch", fmt::format("patch {} has a field of its thickness already (fields)", patch));
-    PatchField field{0, equalParts(on[p], &RegionPart::u), equalParts(on[p], &RegionPart::v), {}};
+    PatchField field{0, equalParts(on[p], &RegionRectangle::u), equalParts(on[p], &RegionRectangle::v), {}};
     field.values.assign(static_cast<std::size_t>(field.count_u) * static_cast<std::size_t>(field.count_v), 1);
     std::vector<const Placed*> owner(field.values.size(), nullptr);
     for (const Placed& one : on[p]) {

@@ -10,15 +10,15 @@
 namespace gambeson {
 
 /// A rectangle in the parameters of a patch. u and v are fractions of the patch's range, in hundredths.
-struct RegionPart {
+struct RegionRectangle {
   std::string patch;  ///< by name; empty: every patch of the garment
   std::array<double, 2> u{0, 1}, v{0, 1};
 };
 
 struct RegionCase {
   std::string name;
-  std::vector<RegionPart> parts;  ///< empty: all of the garment
-  double thickness = 1;           ///< over that of the fabric
+  std::vector<RegionRectangle> parts;  ///< empty: all of the garment
+  double thickness = 1;                ///< over that of the fabric
 };
 
 /// Multiplies the thickness of a garment, region by region: a degree-0 field on each patch that a region is on, 1 where

@@ -11,13 +11,13 @@
 namespace gambeson::schema {
 namespace {
 
-void addRange(Table<RegionPart>& table, const char* key, std::array<double, 2> RegionPart::*range,
+void addRange(Table<RegionRectangle>& table, const char* key, std::array<double, 2> RegionRectangle::*range,
               const std::string& doc) {
   Field field = fieldOf(key, Kind::numbers, "", between(0, 1), doc);
   field.default_note = "[0, 1]: all of it";
   table.custom(
       field,
-      [range, allowed = field.range](const Entry& p, RegionPart& part) {
+      [range, allowed = field.range](const Entry& p, RegionRectangle& part) {
         const std::vector<double> both = readNumbers(p, "", allowed);
         if (both.size() != 2) p.fail(fmt::format("has {} numbers; allowed: 2, from and to", both.size()));
         for (std::size_t k = 0; k < 2; ++k)
@@ -26,20 +26,20 @@ void addRange(Table<RegionPart>& table, const char* key, std::array<double, 2> R
         if (!(both[0] < both[1])) p.fail(fmt::format("[{}, {}] is empty; allowed: from below to", both[0], both[1]));
         part.*range = {both[0], both[1]};
       },
-      [range](const RegionPart& part) {
+      [range](const RegionRectangle& part) {
         return std::optional(nodeOfList({(part.*range)[0], (part.*range)[1]}));
       });
 }
 
 Object partTable() {
-  Table<RegionPart> table("Part of a region");
-  table.text("patch", &RegionPart::patch, "its name as tables call it (\"trunk_left\")")
+  Table<RegionRectangle> table("Part of a region");
+  table.text("patch", &RegionRectangle::patch, "its name as tables call it (\"trunk_left\")")
       .defaultsTo("every patch of the garment");
   addRange(
-      table, "u", &RegionPart::u,
+      table, "u", &RegionRectangle::u,
       "from and to, in hundredths of the patch's u (of shorts around the body, of their left half from front to back, "
       "of the right from back to front); a border within a cell is as sharp as the cell");
-  addRange(table, "v", &RegionPart::v, "the same along v (of drafted garments upwards)");
+  addRange(table, "v", &RegionRectangle::v, "the same along v (of drafted garments upwards)");
   return table.build();
 }
 

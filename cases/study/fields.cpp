@@ -130,7 +130,7 @@ schema::Object optimiseTable() {
   rawField(table, "repeats", &O::repeats,
            "list of objects path: value that change numerics alone, at most 10; first map and best one run again with "
            "each, and how far the gain moves is its error bar",
-           "[{" time.step_safety ": 0.8}]");
+           R"([{"time.step_safety": 0.8}])");
   rawField(
       table, "finer", &O::finer,
       "object path: value that makes the mesh finer; both maps run again on it, of equal mass there too, and how far "

@@ -301,6 +301,7 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
     pageSection("standing", "Standing and moving", "", standingOf(s, c));
   }
   pageSection("forces", "Comfort, and where the garment presses", "", forcesOf(s, c));
+  pageSection("measured", "Against measured garments", "Where garment and motion correspond.", measuredOf(s, c));
   pageSection("garments", "The garments", "", kindsOf(s, c) + thicknessPage(s, c));
   pageSection("cloth", "How it sits", "", clothOf(s, c));
   if (!pictures.empty())

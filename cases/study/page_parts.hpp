@@ -61,6 +61,9 @@ std::string clothOf(const Study& study, const Comparison& c);
 // page_map.cpp
 /// The thickness map that was found; empty where none was searched.
 std::string mapOf(const Study& study);
+// page_measured.cpp
+/// Ours against torques of garments that were measured or are told; empty where none corresponds.
+std::string measuredOf(const Study& study, const Comparison& c);
 // page_trust.cpp
 std::string checksOf(const Study& study, const Comparison& c);
 std::string leftOutOf(const Study& study, const Comparison& c);

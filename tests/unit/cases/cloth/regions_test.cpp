@@ -25,7 +25,8 @@ Garment twoSquares() {
 
 TEST(Regions, FactorsLieWhereTheirPartsAre) {
   Garment g = twoSquares();
-  applyRegions({{"low", {{"left", {0, 1}, {0, 0.25}}, {"right", {0, 0.5}, {0, 0.25}}}, 2}, {"high", {{"left", {0, 1}, {0.6, 1}}}, 0.5}},
+  applyRegions({{"low", {{"left", {0, 1}, {0, 0.25}}, {"right", {0, 0.5}, {0, 0.25}}}, 2},
+                {"high", {{"left", {0, 1}, {0.6, 1}}}, 0.5}},
                g);
   const auto factor = [&](int patch, Vec2 uv) { return surfaceDensityAt(g, patch, uv) / 0.5; };
   EXPECT_DOUBLE_EQ(factor(0, {0.1, 0.2}), 2);
@@ -62,8 +63,8 @@ void expectWrong(const std::vector<RegionCase>& regions, Garment g, const std::s
 
 TEST(Regions, WhatIsWrongIsSaid) {
   expectWrong({{"a", {{"middle"}}, 2}}, twoSquares(), "regions[0].parts[0].patch", "there is no patch \"middle\"");
-  expectWrong({{"a", {{"left", {0, 0.5}}}, 2}, {"b", {{"left", {0.4, 1}}}, 2}}, twoSquares(), "regions[1].parts[0].patch",
-              "shares cloth of patch left with region \"a\"");
+  expectWrong({{"a", {{"left", {0, 0.5}}}, 2}, {"b", {{"left", {0.4, 1}}}, 2}}, twoSquares(),
+              "regions[1].parts[0].patch", "shares cloth of patch left with region \"a\"");
   Garment thick = twoSquares();
   thick.fields.resize(2);
   thick.fields[1].thickness = PatchField{0, 1, 1, {2}};
