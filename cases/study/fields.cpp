@@ -127,10 +127,11 @@ schema::Object optimiseTable() {
       .defaultsTo("a quarter of the range of between")
       .integer("runs", &O::runs, 2, 500,
                "of the search, at most; it ends before where a step is shorter than a hundredth of a factor");
-  rawField(table, "repeats", &O::repeats,
-           "list of objects path: value that change numerics alone, at most 10; first map and best one run again with "
-           "each, and how far the gain moves is its error bar",
-           R"([{"time.step_safety": 0.8}])");
+  rawField(
+      table, "repeats", &O::repeats,
+      "list of objects path: value that change numerics alone (steps, or garment.noise of a tenth of a millimetre), at "
+      "most 10; first map and best one run again with each, and how far the gain moves is its error bar",
+      "one with time.step_safety and time.max_step (or time.step) at four fifths");
   rawField(
       table, "finer", &O::finer,
       "object path: value that makes the mesh finer; both maps run again on it, of equal mass there too, and how far "

@@ -32,15 +32,17 @@ MapGain gainOf(const Optimise& o) {
   MapGain g;
   g.gain = o.aim == Aim::torque ? here : 1 - f.found().mass_kg / f.start().mass_kg;
   for (const MapPair& p : f.repeats)
+    g.scattered = g.scattered || p.start.torque_Nm != f.start().torque_Nm || p.best.torque_Nm != f.found().torque_Nm;
+  for (const MapPair& p : f.repeats)
     g.noise = std::max(g.noise, std::abs(numberOf(o.aim, p.start, p.best, reference_Nm) - here));
   if (f.finer) {
     g.mesh = std::abs(numberOf(o.aim, f.finer->start, f.finer->best, reference_Nm) - here);
     g.finer = o.aim == Aim::torque ? torqueGain(f.finer->start, f.finer->best) : f.finer->best.torque_Nm;
   }
   if (o.aim == Aim::torque)
-    g.sure = f.best > 0 && g.gain > g.bar() && (!g.finer || *g.finer > g.noise);
+    g.sure = f.best > 0 && g.scattered && g.gain > g.bar() && (!g.finer || *g.finer > g.noise);
   else
-    g.sure = f.found().torque_Nm * (1 + g.bar()) <= o.limit_Nm;
+    g.sure = g.scattered && f.found().torque_Nm * (1 + g.bar()) <= o.limit_Nm;
   // The first run that no later one is better than by more than the noise.
   const double best_Nm = f.found().torque_Nm, scatter_Nm = g.noise * f.start().torque_Nm;
   const auto good = [&](const MapRun& r) {

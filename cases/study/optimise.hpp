@@ -73,6 +73,7 @@ struct Optimise {
 /// both drops out: how far the gain itself moves is the error bar.
 struct MapGain {
   double gain = 0;             ///< Aim::torque: 1 - torque of the best / torque of the start; Aim::mass: of the masses
+  bool scattered = false;      ///< a repeat changed a torque at all: else nothing is known of the noise
   double noise = 0;            ///< the largest |gain in a repeat - gain|; Aim::mass: of the best map's torque, relative
   std::optional<double> mesh;  ///< the same of the finer mesh
   std::optional<double> finer;  ///< the gain there; Aim::mass: the torque there

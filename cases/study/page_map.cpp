@@ -30,8 +30,12 @@ std::string folderLink(const MapRun& r, const std::string& text) {
 }
 
 std::string barText(const Optimise& o, const MapGain& g) {
-  std::string text =
-      fmt::format("The error bar is \u00b1 {}: {} from repeats with other steps", percent(g.bar()), percent(g.noise));
+  if (!g.scattered)
+    return o.found.repeats.empty()
+               ? "Nothing was repeated, so that there is no error bar. "
+               : "The repeats gave the same numbers to the last digit, so that they changed no step and "
+                 "there is no error bar. ";
+  std::string text = fmt::format("The error bar is \u00b1 {}: {} from the repeats", percent(g.bar()), percent(g.noise));
   text += g.mesh ? fmt::format(", {} from a finer mesh", percent(*g.mesh))
                  : std::string("; without \"finer\" in the study nothing says what the mesh adds to it");
   return text + (o.aim == Aim::torque
@@ -48,7 +52,9 @@ std::string saidOfTorque(const Optimise& o, const MapGain& g) {
       fmt::format("At the same mass of {} kg the largest added torque falls from {} Nm ({}) to {} Nm ({}): {} less. ",
                   formatNumber(f.start().mass_kg), formatNumber(f.start().torque_Nm), f.start().joint,
                   formatNumber(f.found().torque_Nm), f.found().joint, percent(g.gain));
-  std::string sure = g.sure ? "The gain is larger than that" : "That is no more than chance: the gain may be none";
+  std::string sure = g.sure        ? "The gain is larger than that"
+                     : g.scattered ? "The gain is not larger than that: it may be none"
+                                   : "Whether the gain is more than chance is not known";
   if (g.finer) sure += fmt::format("{}on the finer mesh it is {}", g.sure ? "; " : ", and ", percent(*g.finer));
   return gain + barText(o, g) + sure + ". ";
 }

@@ -84,11 +84,25 @@ std::string settingsName(const std::vector<Setting>& all) {
   return name;
 }
 
-void readRepeats(const Entry& entry, const OptimiseInput& in, Optimise& o) {
+/// Steps of four fifths, whatever limits them.
+std::vector<Setting> shorterSteps(const TimeCase& time, int line) {
+  std::vector<Setting> all;
+  const auto add = [&](const char* key, double value) {
+    all.push_back({fmt::format("time.{}", key), schema::nodeOf(0.8 * value)});
+    all.back().value.line = line;
+  };
+  if (time.step_s > 0) {
+    add("step", time.step_s);
+  } else {
+    add("step_safety", time.step_safety);
+    add("max_step", time.max_step_s);
+  }
+  return all;
+}
+
+void readRepeats(const Entry& entry, const OptimiseInput& in, const TimeCase& time, Optimise& o) {
   if (in.repeats.type == JsonNode::Type::null) {
-    JsonNode step = schema::nodeOf(0.8);
-    step.line = entry.node.line;
-    o.repeats = {{"", {{"time.step_safety", step}}}};
+    o.repeats = {{"", shorterSteps(time, entry.node.line)}};
   } else {
     const Entry at = entry.member(*entry.node.find("repeats"));
     if (at.node.type != JsonNode::Type::list) at.fail("expected a list [ ], not " + describe(at.node));
@@ -120,7 +134,6 @@ void readOptimise(const Entry& root, const StudyInput& in, Study& s) {
   if (o.aim == Aim::torque && from.limit_Nm) entry.failAt("limit", "is for \"minimise\": \"mass\"");
   if (o.aim == Aim::mass && from.mass_kg) entry.failAt("mass", "is for \"minimise\": \"torque\"");
   o.limit_Nm = from.limit_Nm.value_or(0);
-  readRepeats(entry, from, o);
   o.base = readJson(in.file);
   o.case_file = in.file;
   if (in.set.type != JsonNode::Type::null) o.common = settingsOf(root.member(*root.node.find("set")));
@@ -134,6 +147,7 @@ void readOptimise(const Entry& root, const StudyInput& in, Study& s) {
   if (!c || !c->human) entry.fail("is for garments that a human wears: the case has none");
   JsonNode whole = o.base;
   for (const Setting& set : o.common) overrideValue(whole, set.path, set.value, s.file.string());
+  readRepeats(entry, from, c->time, o);
   o.regions = mapRegionsOf(*c, whole);
   chooseRegions(entry, from, o.regions);
   for (std::size_t i = 0; i < o.joints.size(); ++i)
