@@ -204,7 +204,7 @@ class MapRuns {
         std::ranges::all_of(optimise_.regions, [&](const MapRegion& r) { return !r.kept || r.factor == start[0]; });
     Axis axis;
     axis.name = "thickness map";
-    axis.role = Role::fit;
+    axis.role = Role::other;
     axis.labelled = true;
     const std::string first = uniform ? "uniform thickness" : "thickness of the case";
     axis.levels.push_back({first, first, "uniform", {}, {}});

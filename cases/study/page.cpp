@@ -160,7 +160,7 @@ std::string takenOf(const Study& s, const Comparison& c) {
   }
   if (!c.verdict.garments.empty()) list += item("Garments", prose(c.verdict.garments));
   if (mass && *mass > 0)
-    list += item("Weighs", base && *base != *mass
+    list += item("Weighs", base && formatNumber(*base) != formatNumber(*mass)
                                ? fmt::format("{} kg instead of {} kg", formatNumber(*mass), formatNumber(*base))
                                : fmt::format("{} kg", formatNumber(*mass)));
   for (const VariantGroup& g : c.groups) {

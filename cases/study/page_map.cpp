@@ -48,10 +48,11 @@ std::string barText(const Optimise& o, const MapGain& g) {
 std::string saidOfTorque(const Optimise& o, const MapGain& g) {
   const FoundMap& f = o.found;
   if (f.best == 0) return "No map that was tried costs less torque than the one that the search started from. ";
+  const std::string to = f.found().joint == f.start().joint ? "" : " at the " + f.found().joint;
   const std::string gain =
-      fmt::format("At the same mass of {} kg the largest added torque falls from {} Nm ({}) to {} Nm ({}): {} less. ",
+      fmt::format("At the same mass of {} kg the largest added torque falls from {} Nm at the {} to {} Nm{}: {} less. ",
                   formatNumber(f.start().mass_kg), formatNumber(f.start().torque_Nm), f.start().joint,
-                  formatNumber(f.found().torque_Nm), f.found().joint, percent(g.gain));
+                  formatNumber(f.found().torque_Nm), to, percent(g.gain));
   std::string sure = g.sure        ? "The gain is larger than that"
                      : g.scattered ? "The gain is not larger than that: it may be none"
                                    : "Whether the gain is more than chance is not known";
@@ -62,10 +63,10 @@ std::string saidOfTorque(const Optimise& o, const MapGain& g) {
 std::string saidOfMass(const Optimise& o, const MapGain& g) {
   const FoundMap& f = o.found;
   if (f.found().torque_Nm > o.limit_Nm)
-    return fmt::format("No map that was tried stays below {} Nm; the lowest has {} Nm ({}). ", formatNumber(o.limit_Nm),
-                       formatNumber(f.found().torque_Nm), f.found().joint);
+    return fmt::format("No map that was tried stays below {} Nm; the lowest has {} Nm at the {}. ",
+                       formatNumber(o.limit_Nm), formatNumber(f.found().torque_Nm), f.found().joint);
   std::string text =
-      fmt::format("The lightest map below {} Nm weighs {} kg instead of {} kg, {} less, and has {} Nm ({}). ",
+      fmt::format("The lightest map below {} Nm weighs {} kg instead of {} kg, {} less, and has {} Nm at the {}. ",
                   formatNumber(o.limit_Nm), formatNumber(f.found().mass_kg), formatNumber(f.start().mass_kg),
                   percent(g.gain), formatNumber(f.found().torque_Nm), f.found().joint);
   text += barText(o, g);
@@ -78,12 +79,16 @@ std::string saidOfMass(const Optimise& o, const MapGain& g) {
 /// Where more runs, or more room, would help.
 std::string whereItStops(const Optimise& o, const MapGain& g) {
   const FoundMap& f = o.found;
-  std::string text =
-      f.best == 0 ? fmt::format("{} maps were tried. ", f.runs.size())
-                  : fmt::format(
-                        "Map {} of the {} that were tried is the best; after map {} the torque fell by no more than "
-                        "repeats scatter: there the search stops helping. ",
-                        f.best + 1, f.runs.size(), g.helps_until + 1);
+  std::string text = f.best == 0
+                         ? fmt::format("{} maps were tried. ", f.runs.size())
+                         : fmt::format("Map {} of the {} that were tried is the best. ", f.best + 1, f.runs.size());
+  // What was still gained in the last fifth of its runs may go on.
+  const bool used_up = static_cast<int>(f.runs.size()) >= o.runs;
+  if (used_up && 5 * (g.helps_until + 1) > 4 * f.runs.size())
+    text += "The search still gained when its runs were used up: more runs may gain more. ";
+  else if (f.best > 0)
+    text += fmt::format("After map {} it gained no more than {}: there it stops helping. ", g.helps_until + 1,
+                        o.aim == Aim::torque ? "repeats scatter" : "a thousandth");
   std::vector<std::string> thin, thick;
   const auto free = o.free();
   for (std::size_t i = 0; f.best > 0 && i < free.size(); ++i) {
@@ -91,12 +96,9 @@ std::string whereItStops(const Optimise& o, const MapGain& g) {
     if (f.found().map[i] >= o.most - 0.01) thick.push_back(free[i]->name);
   }
   if (!thin.empty())
-    text +=
-        fmt::format("{} {} as thin as the study allows (x {:g}): what protects sets the gain there, not the cloth. ",
-                    listed(thin), thin.size() == 1 ? "is" : "are", o.least);
-  if (!thick.empty())
-    text +=
-        fmt::format("{} {} as thick as it allows (x {:g}). ", listed(thick), thick.size() == 1 ? "is" : "are", o.most);
+    text += fmt::format("As thin as the study allows (x {:g}): {}. What protects sets the gain there, not the search. ",
+                        o.least, listed(thin));
+  if (!thick.empty()) text += fmt::format("As thick as it allows (x {:g}): {}. ", o.most, listed(thick));
   const auto failing = std::ranges::count_if(f.runs, [](const MapRun& r) { return r.failing > 0; });
   const auto failed = std::ranges::count_if(f.runs, [](const MapRun& r) { return !r.why.empty(); });
   if (failing > 0) text += fmt::format("In {} of the runs checks fail: their own pages say which. ", failing);
