@@ -17,6 +17,9 @@ namespace {
 /// Steps shorter than this change no torque by more than runs scatter.
 constexpr double kShortestStep = 0.01;
 
+/// A search for the least mass ends on its limit, on whose side chance decides: it keeps this share of it off.
+constexpr double kOffLimit = 0.01;
+
 std::size_t heaviest(const MapProblem& p) {
   return static_cast<std::size_t>(std::max_element(p.mass_kg.begin(), p.mass_kg.end()) - p.mass_kg.begin());
 }
@@ -88,7 +91,7 @@ class Search {
   }
   double torqueAt(const double* y) { return ask(mapOfMass(p_, whole(y), mass_kg_)) / tried_[0].torque_Nm; }
   double massAt(const double* y) const { return p_.massOf(whole(y)) / mass_kg_; }
-  double excessAt(const double* y) { return ask(whole(y)) / p_.limit_Nm - 1; }
+  double excessAt(const double* y) { return ask(whole(y)) / p_.limit_Nm - (1 - kOffLimit); }
 
   double ask(const std::vector<double>& wanted) {
     const std::vector<double> map = rounded(wanted);

@@ -38,7 +38,7 @@ struct TriedMap {
 /// Asks `torque` for one map after the other, `start` first, none twice. COBYLA (Powell 1994; NLopt's), which takes the
 /// torque as linear between maps that it has tried: no derivatives, no random numbers, the same answers lead to the
 /// same questions. With Aim::torque the heaviest region follows from the others; with Aim::mass the torque is a
-/// constraint. It ends where a step is shorter than a hundredth of a factor, or with `runs`.
+/// constraint, which keeps 1 % off its limit. It ends where a step is shorter than a hundredth of a factor, or with `runs`.
 std::vector<TriedMap> searchMap(const MapProblem& problem,
                                 const std::function<double(const std::vector<double>&)>& torque);
 
