@@ -4,7 +4,7 @@
 
 packages=(g++ cmake ninja-build pkg-config libeigen3-dev liburdfdom-dev libtinyxml-dev libassimp-dev libosmesa6-dev
   nlohmann-json3-dev libcli11-dev libdime-dev libocct-data-exchange-dev libfmt-dev libboost-dev libhdf5-dev libfreetype-dev libpng-dev zlib1g-dev
-  libavcodec-dev libavformat-dev libavutil-dev libswscale-dev libsuitesparse-dev libopenblas-serial-dev fonts-dejavu-core libjs-three)
+  libnlopt-dev libavcodec-dev libavformat-dev libavutil-dev libswscale-dev libsuitesparse-dev libopenblas-serial-dev fonts-dejavu-core libjs-three)
 test_packages=(libgtest-dev libbenchmark-dev libgmp-dev libcgal-dev python3)
 build=build/release
 cmake_options=()

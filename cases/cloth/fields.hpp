@@ -10,5 +10,6 @@ Object strainLimitTable();  ///< StrainLimitCase
 enum class FieldsOf { sheet, garment };
 Object fieldsTable(FieldsOf of);  ///< FieldsCase
 Object noiseTable();              ///< NoiseCase
+Object regionsTable();            ///< RegionCase
 
 }  // namespace gambeson::schema

@@ -88,7 +88,9 @@ struct SortByKeys {
   Sort sort;
 };
 
-bool isStudy(const JsonNode& root) { return has(root, "axes") || (has(root, "case") && has(root, "variants")); }
+bool isStudy(const JsonNode& root) {
+  return has(root, "axes") || (has(root, "case") && (has(root, "variants") || has(root, "optimise")));
+}
 
 /// By what only cards have; a case of a structure has a sheet, and one of worn cloth a garment.
 bool isCard(const JsonNode& root) {

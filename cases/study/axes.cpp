@@ -6,6 +6,7 @@
 #include <set>
 
 #include "cases/input/units.hpp"
+#include "cases/study/make_variant.hpp"
 
 namespace gambeson::study {
 
@@ -24,13 +25,8 @@ std::string textOf(const JsonNode& value) {
   }
 }
 
-std::string safe(const std::string& text) {
-  std::string s;
-  for (const char c : text)
-    s += (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+'
-             ? c
-             : '_';
-  return s;
+bool isRegionFactor(const std::string& path) {
+  return path.starts_with("garment") && path.find(".regions[") != std::string::npos && path.ends_with("].thickness");
 }
 
 std::vector<Setting> settingsOf(const Entry& entry) {
@@ -107,7 +103,7 @@ Axis axisOf(const Entry& entry, const AxisInput& in) {
   axis.name = in.name.empty() ? in.path.substr(in.path.rfind('.') + 1) : in.name;
   if (axis.name.empty()) entry.failAt("name", "is required where sets are given");
   axis.unit = in.unit;
-  axis.multiple = in.path.starts_with("factors.");
+  axis.multiple = in.path.starts_with("factors.") || isRegionFactor(in.path);
   axis.labelled = !in.labels.empty();
   const std::string key = sets ? "sets" : "values";
   const JsonNode& list = sets ? in.sets : in.values;
@@ -125,7 +121,7 @@ Axis axisOf(const Entry& entry, const AxisInput& in) {
     if (level.label.empty())
       entry.failAt("labels", "is required: what no number, text or flag names needs a label for each level");
     const std::string name = in.labels.empty() ? axis.name + "_" + level.label : level.label;
-    level.folder = safe(name);
+    level.folder = folderName(name);
     // A factor is a multiple, and read as such: "thickness x 0.5" is no length.
     level.name = !in.labels.empty() ? level.label
                                     : fmt::format("{} {}{}{}{}", axis.name, axis.multiple ? "x " : "", level.label,
@@ -179,6 +175,17 @@ std::map<std::size_t, int> levelsAt(const Entry& entry, const Study& s) {
   return levels;
 }
 
+namespace {
+
+/// The factors of regions are multiples too, of which elasticities know nothing.
+bool isOfRegion(const Axis& axis) {
+  return std::any_of(axis.levels.begin(), axis.levels.end(), [](const Level& l) {
+    return std::any_of(l.set.begin(), l.set.end(), [](const Setting& s) { return isRegionFactor(s.path); });
+  });
+}
+
+}  // namespace
+
 bool isFactor(const Axis& axis) {
   return std::any_of(axis.levels.begin(), axis.levels.end(), [](const Level& l) {
     return std::any_of(l.set.begin(), l.set.end(), [](const Setting& s) { return s.path.starts_with("factors"); });
@@ -202,7 +209,7 @@ void findBaseline(const Entry& root, const StudyInput& in, Study& s) {
   }
   for (std::size_t a = 0; a < s.axes.size(); ++a)
     for (std::size_t l = 0; l < s.axes[a].levels.size(); ++l)
-      if (isFactor(s.axes[a]) && s.axes[a].levels[l].number == 1.0) {
+      if ((isFactor(s.axes[a]) || isOfRegion(s.axes[a])) && s.axes[a].levels[l].number == 1.0) {
         s.compared.push_back(static_cast<int>(a));
         s.baseline.push_back(static_cast<int>(l));
       }

@@ -11,8 +11,8 @@ namespace gambeson::study {
 
 /// A number, a text or a flag as labels have it; empty of anything else.
 std::string textOf(const JsonNode& value);
-/// What a folder's name may have.
-std::string safe(const std::string& text);
+/// Whether a value of the case is the factor of a region: "garment.regions[0].thickness".
+bool isRegionFactor(const std::string& path);
 
 // What is wrong is thrown as InputError, at the entry or below it.
 /// Object path: value.

@@ -109,6 +109,59 @@ schema::Object uncertaintyTable() {
   return table.build();
 }
 
+schema::Object optimiseTable() {
+  using O = OptimiseInput;
+  Table<O> table("Optimise");
+  table
+      .choice(
+          "minimise", &O::aim, std::vector<std::pair<std::string, Aim>>{{"torque", Aim::torque}, {"mass", Aim::mass}},
+          "torque: the largest added torque, at a given mass; mass: that of all garments, with no larger torque than "
+          "the limit")
+      .required()
+      .texts("regions", &O::regions, "names of the regions (garment.regions) whose thickness is free, at most 8")
+      .defaultsTo("all that keep does not name")
+      .texts("keep", &O::keep, "names of regions that are protected: they stay as the case has them")
+      .texts("joints", &O::joints, "names of the joints whose torque counts, the largest of them")
+      .defaultsTo("all that the case analyses and that turn")
+      .number(
+          "mass", &O::mass_kg, "kg", schema::aboveTo(0, 1000),
+          "of all garments, kept by the free region that is heaviest, whose factor follows from the others; the search "
+          "starts from the case with one factor on all free regions")
+      .defaultsTo("that of the case, from which the search then starts")
+      .number("limit", &O::limit_Nm, "N m", schema::aboveTo(0, 1e4), "largest added torque that is allowed")
+      .defaultsTo("required where the mass is minimised");
+  schema::Field between =
+      schema::fieldOf("between", schema::Kind::numbers, "", schema::between(0.05, 20), "least and largest factor");
+  between.default_note = "[0.5, 1.5]";
+  table.custom(
+      between,
+      [range = between.range](const Entry& p, O& o) {
+        const std::vector<double> both = schema::readNumbers(p, "", range);
+        if (both.size() != 2) p.fail(fmt::format("has {} numbers; allowed: 2, least and largest", both.size()));
+        if (!(both[0] < both[1]))
+          p.fail(fmt::format("[{}, {}] is empty; allowed: least below largest", both[0], both[1]));
+        o.between = {both[0], both[1]};
+      },
+      [](const O& o) {
+        return std::optional(schema::nodeOfList({o.between[0], o.between[1]}));
+      });
+  table.number("step", &O::step, "", schema::between(0.02, 10), "of the factors, in the first runs")
+      .defaultsTo("a quarter of the range of between")
+      .integer("runs", &O::runs, 2, 500,
+               "of the search, at most; it ends before where a step is shorter than a hundredth of a factor");
+  rawField(
+      table, "repeats", &O::repeats,
+      "list of objects path: value that change numerics alone (steps, or garment.noise of a tenth of a millimetre), at "
+      "most 10; first map and best one run again with each, and how far the gain moves is its error bar",
+      "one with time.step_safety and time.max_step (or time.step) at four fifths");
+  rawField(
+      table, "finer", &O::finer,
+      "object path: value that makes the mesh finer; both maps run again on it, of equal mass there too, and how far "
+      "the gain moves adds to the error bar",
+      "none: the gain is not confirmed on a finer mesh");
+  return table.build();
+}
+
 schema::Object limitsTable() {
   return Table<Limits>("Limits")
       .number("green", &Limits::green, "", schema::aboveTo(0, 10), "green below this part of the natural moment")
@@ -137,6 +190,12 @@ schema::Object makeStudyTable() {
       .object("elasticities", &S::elasticities, elasticityTable(),
               "adds the ten variants that tell how much of the torque is due to bending, membrane, weight, inertia and "
               "drag, at each combination of the axes that are not factors (those stay at the baseline)")
+      .defaultsTo("none")
+      .object(
+          "optimise", &S::optimise, optimiseTable(),
+          "in place of axes and variants: searches the thickness map over named regions (garment.regions) that costs "
+          "least, by COBYLA, a search without derivatives and without random numbers, each try a run of its own; a "
+          "search that was stopped goes on with --resume to the same map")
       .defaultsTo("none");
   table
       .object("uncertainty", &S::uncertainty, uncertaintyTable(),
@@ -155,7 +214,7 @@ schema::Object makeStudyTable() {
       .list("pictures", &S::pictures, schema::pictureTable(),
             "of all variants of the axes side by side, at the same time (peak: that of the baseline) and with the same "
             "colours")
-      .defaultsTo("one of the stress at the baseline's peak");
+      .defaultsTo("one of the stress at the baseline's peak; with optimise also two of the thickness");
   return table.build();
 }
 

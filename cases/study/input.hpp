@@ -1,6 +1,11 @@
 #pragma once
 /// A study as its file has it, before it becomes variants.
 
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "cases/cloth/fabric_spread.hpp"
 #include "cases/study/study.hpp"
 
@@ -40,6 +45,14 @@ struct UncertaintyInput {
   std::optional<double> finer;            ///< absent: 1.5 where the study has no finer meshes of its own; 1: none
   JsonNode where;
 };
+struct OptimiseInput {
+  Aim aim = Aim::torque;
+  std::vector<std::string> regions, keep, joints;
+  std::optional<double> mass_kg, limit_Nm, step;
+  std::array<double, 2> between{0.5, 1.5};
+  int runs = 20;
+  JsonNode repeats, finer;
+};
 struct StudyInput {
   std::string name, description;
   std::filesystem::path file;
@@ -48,10 +61,9 @@ struct StudyInput {
   std::vector<ExtraInput> variants;
   std::optional<ElasticityInput> elasticities;
   std::optional<UncertaintyInput> uncertainty;
+  std::optional<OptimiseInput> optimise;
   Limits limits = publishedLimits();
-  std::vector<PictureCase> pictures{
-      {PictureTime::peak, 0, PictureField::stress, View::front_right, PictureAround::wearer, 640, 720},
-  };
+  std::optional<std::vector<PictureCase>> pictures;
 };
 
 }  // namespace gambeson::study

@@ -96,11 +96,14 @@ std::string multiplesOf(const Study& s) {
       return x.number.value_or(1) < y.number.value_or(1);
     });
     if (!least->number) continue;
+    const std::string& path = least->set[0].path;
     text += fmt::format(
         "{}\u201c{} x {}\u201d means {} times the {} that the garment was designed with{}; x 1 is the "
         "design.",
         text.empty() ? "" : " ", a.name, least->label, least->label, a.name,
-        a.role == Role::thickness ? ", in every garment, and is no measure in mm" : "");
+        a.role != Role::thickness      ? ""
+        : path.starts_with("factors.") ? ", in every garment, and is no measure in mm"
+                                       : ", in that region, and is no measure in mm");
   }
   return text;
 }
@@ -190,7 +193,7 @@ std::string takenOf(const Study& s, const Comparison& c) {
   }
   if (!c.verdict.garments.empty()) list += item("Garments", prose(c.verdict.garments));
   if (mass && *mass > 0)
-    list += item("Weighs", base && *base != *mass
+    list += item("Weighs", base && formatNumber(*base) != formatNumber(*mass)
                                ? fmt::format("{} kg instead of {} kg", formatNumber(*mass), formatNumber(*base))
                                : fmt::format("{} kg", formatNumber(*mass)));
   for (const VariantGroup& g : c.groups) {
@@ -313,6 +316,8 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
     if (!what.empty()) body += pageSectionOf(id, title, lead, what);
   };
   if (!batch) body += headline(s, c, pictures);
+  pageSection("map", "The thickness map",
+              "How thick each region of the garment should be, so that it costs its wearer least.", mapOf(s));
   body += viewerSection(views);
   const bool joints = std::any_of(c.runs.begin(), c.runs.end(), [](const RunNumbers& r) { return r.highest(); });
   const std::string shares = anyNatural(c) ? ": in per cent of the joint\u2019s natural moment, in Nm," : " in Nm,";
@@ -335,6 +340,7 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
     pageSection("standing", "Standing and moving", "", standingOf(s, c));
   }
   pageSection("forces", "Comfort, and where the garment presses", "", forcesOf(s, c));
+  pageSection("measured", "Against measured garments", "Where garment and motion correspond.", measuredOf(s, c));
   pageSection("garments", "The garments", "", kindsOf(s, c) + thicknessPage(s, c));
   pageSection("cloth", "How it sits", "", clothOf(s, c));
   if (!pictures.empty())

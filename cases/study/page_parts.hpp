@@ -62,6 +62,12 @@ std::string clothOf(const Study& study, const Comparison& c);
 std::string sureOf(const Study& study, const Comparison& c);
 /// " ± 0.31", of a number of a variant; empty where no bar is known.
 std::string plusMinus(const Study& study, const Comparison& c, std::size_t variant, const Headline& what);
+// page_map.cpp
+/// The thickness map that was found; empty where none was searched.
+std::string mapOf(const Study& study);
+// page_measured.cpp
+/// Ours against torques of garments that were measured or are told; empty where none corresponds.
+std::string measuredOf(const Study& study, const Comparison& c);
 // page_trust.cpp
 std::string checksOf(const Study& study, const Comparison& c);
 std::string leftOutOf(const Study& study, const Comparison& c);

@@ -8,11 +8,12 @@
 #include <map>
 #include <set>
 
-#include "cases/input/mistakes.hpp"
 #include "cases/input/table.hpp"
 #include "cases/study/axes.hpp"
 #include "cases/study/files.hpp"
 #include "cases/study/input.hpp"
+#include "cases/study/make_variant.hpp"
+#include "cases/study/read_parts.hpp"
 #include "cases/study/uncertainty_runs.hpp"
 #include "core/error.hpp"
 
@@ -50,24 +51,14 @@ class Maker {
     }
     all.insert(all.end(), more.begin(), more.end());
     if (!extra_label.empty()) {
-      v.folder += (v.folder.empty() ? "" : "__") + safe(extra_label);
+      v.folder += (v.folder.empty() ? "" : "__") + folderName(extra_label);
       v.label += (v.label.empty() ? "" : ", ") + extra_label;
     }
     if (const std::string why = files::unfitFolder(v.folder); !why.empty()) at.fail(fmt::format("a variant {}", why));
     if (!folders_.insert(v.folder).second)
       at.fail(fmt::format("there are two variants {}; allowed: labels that differ", v.label));
     if (study_.variants.size() >= most_variants) tooMany(at);
-    try {
-      for (const Setting& s : all) overrideValue(root, s.path, s.value, entry_.file);
-      v.definition = readAnyCase(root, in_.file);
-    } catch (const InputError& e) {
-      Mistakes of_variant;
-      for (const InputError& one : mistakesOf(e))
-        of_variant.add(InputError(one.where(), fmt::format("{} (variant {})", one.reason(), v.label)));
-      of_variant.say();
-    }
-    introduce(v);
-    identify(v);
+    defineVariant(study_, root, in_.file, all, v);
     study_.variants.push_back(std::move(v));
     root_ = std::move(root);
   }
@@ -75,31 +66,7 @@ class Maker {
   /// The file of the case of the variant that was added last, with its values in.
   const JsonNode& root() const { return root_; }
 
-  static void identify(Variant& v) {
-    v.identity = std::visit([](const auto& c) { return caseIdentity(c); }, v.definition);
-    if (const auto* c = std::get_if<Case>(&v.definition)) {
-      Case rest = *c;
-      rest.factors = {};
-      rest.name = "rest";
-      v.rest_identity = caseIdentity(rest);
-    }
-  }
-
  private:
-  /// The name and description of the case tell its own motion, which a variant may replace: a variant has the study's.
-  void introduce(Variant& v) const {
-    const bool ends = study_.name.ends_with('?') || study_.name.ends_with('!') || study_.name.ends_with('.');
-    std::string label = v.label;
-    if (ends && !label.empty()) label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-    std::visit(
-        [&](auto& c) {
-          c.name = study_.name + (ends ? " " : ": ") + label;
-          c.description = fmt::format("One run of the study \"{}\".{}{}", study_.name,
-                                      study_.description.empty() ? "" : " ", study_.description);
-        },
-        v.definition);
-  }
-
   const Entry& entry_;
   const StudyInput& in_;
   Study& study_;
@@ -161,6 +128,16 @@ void takeWhere(const Entry& entry, const Study& s, std::vector<std::vector<int>>
     for (std::size_t i = 0; i < child.children.size(); ++i)
       choices[axis].push_back(levelNamed(at.item(i), s.axes[axis], child.children[i]));
   }
+}
+
+std::vector<PictureCase> usualPictures(const StudyInput& in) {
+  PictureCase stress{PictureTime::peak, 0, PictureField::stress, View::front_right, PictureAround::wearer, 640, 720};
+  if (!in.optimise) return {stress};
+  std::vector<PictureCase> all{stress, stress, stress};
+  all[0].field = all[1].field = PictureField::thickness;
+  all[0].around = all[1].around = PictureAround::garment;
+  all[1].view = View::back_left;
+  return all;
 }
 
 void addElasticities(const Entry& root, const ElasticityInput& in, Maker& maker, Study& s) {
@@ -241,9 +218,13 @@ Study readStudy(const std::filesystem::path& file) {
   s.description = in.description;
   s.file = file;
   s.limits = in.limits;
-  s.pictures = in.pictures;
+  s.pictures = in.pictures.value_or(usualPictures(in));
+  if (in.optimise) {
+    readOptimise(entry, in, s);
+    return s;
+  }
   if (in.axes.empty() && in.variants.empty() && !in.uncertainty)
-    entry.fail("one of axes or variants is required, and not empty");
+    entry.fail("one of axes, variants, optimise or uncertainty is required, and not empty");
   for (std::size_t a = 0; a < in.axes.size(); ++a) {
     const Entry at = entry.member(*root.find("axes")).item(a);
     Axis axis = axisOf(at, in.axes[a]);
@@ -287,7 +268,7 @@ Study batchOf(const std::vector<std::filesystem::path>& cases) {
   std::map<std::string, std::filesystem::path> seen;
   for (const std::filesystem::path& file : cases) {
     Variant v;
-    v.folder = v.label = safe(file.stem().string());
+    v.folder = v.label = folderName(file.stem().string());
     v.grid = true;
     if (const std::string why = files::unfitFolder(v.folder); !why.empty())
       throw InputError({"command line", 0, file.string()}, fmt::format("a case {}", why));
@@ -296,7 +277,7 @@ Study batchOf(const std::vector<std::filesystem::path>& cases) {
                        fmt::format("has the same name as {}; allowed: cases whose files have names of their own",
                                    other->second.string()));
     v.definition = readAnyCase(file);
-    Maker::identify(v);
+    identify(v);
     s.variants.push_back(std::move(v));
   }
   return s;

@@ -11,14 +11,9 @@
 #include "analysis/verdict.hpp"
 #include "cases/input/schema.hpp"
 #include "cases/kinds/any_case.hpp"
+#include "cases/study/optimise.hpp"
 
 namespace gambeson::study {
-
-/// A value of the case that a variant replaces; the value knows its line in the study's file.
-struct Setting {
-  std::string path;
-  JsonNode value;
-};
 
 struct Level {
   std::string label;
@@ -84,6 +79,7 @@ struct Study {
   std::vector<int> compared;  ///< axes that the baseline names: variants are compared along them
   std::vector<int> baseline;  ///< level of each of `compared`
   std::vector<Variant> variants;
+  std::optional<Optimise> optimise;  ///< then variants are found by running
   Limits limits;
   std::vector<PictureCase> pictures;
   std::optional<Uncertainty> uncertainty;

@@ -245,6 +245,61 @@ StudyJson elasticityJson(const ElasticityRow& e) {
           {"measured_thickness_exponent", number(e.measured)}};
 }
 
+StudyJson mapRunJson(const Optimise& o, const MapRun& r) {
+  StudyJson j{{"variant", r.folder},
+         {"torque_Nm", number(r.torque_Nm)},
+         {"joint", r.joint},
+         {"mass_kg", r.mass_kg},
+         {"failing_checks", r.failing}};
+  if (!r.why.empty()) j["why"] = r.why;
+  const auto free = o.free();
+  for (std::size_t i = 0; i < free.size(); ++i) j["factors"][free[i]->name] = r.map[i];
+  return j;
+}
+
+StudyJson optimiseJson(const Optimise& o) {
+  const MapGain g = gainOf(o);
+  StudyJson j{{"minimise", o.aim == Aim::torque ? "torque" : "mass"},
+         {"runs", o.found.runs.size()},
+         {"best", mapRunJson(o, o.found.found())},
+         {"start", mapRunJson(o, o.found.start())},
+         {"gain", g.gain},
+         {"error_bar", g.bar()},
+         {"noise", g.noise},
+         {"mesh", number(g.mesh)},
+         {o.aim == Aim::torque ? "gain_on_finer_mesh" : "torque_on_finer_mesh_Nm", number(g.finer)},
+         {"sure", g.sure},
+         {"helps_until", g.helps_until + 1}};
+  const auto pair = [&](const MapPair& p) {
+    return StudyJson{{"what", p.what}, {"start", mapRunJson(o, p.start)}, {"best", mapRunJson(o, p.best)}};
+  };
+  for (const MapPair& p : o.found.repeats) j["repeats"].push_back(pair(p));
+  if (o.found.finer) j["finer"] = pair(*o.found.finer);
+  return j;
+}
+
+/// A row for each map in the order of the search, then those of the error bar.
+std::string mapsTable(const Optimise& o) {
+  std::vector<std::string> row{"variant", "what"};
+  for (const MapRegion* r : o.free()) row.push_back(r->name + "_factor");
+  row.insert(row.end(), {"mass_kg", "torque_Nm", "joint", "failing_checks"});
+  std::string out = csvRow(row);
+  const auto add = [&](const MapRun& r, const std::string& what) {
+    row = {r.folder, r.why.empty() ? what : "failed"};
+    for (const double factor : r.map) row.push_back(cell(factor));
+    row.insert(row.end(), {cell(r.mass_kg), cell(r.torque_Nm), r.joint, std::to_string(r.failing)});
+    out += csvRow(row);
+  };
+  for (const MapRun& r : o.found.runs) add(r, "search");
+  const auto both = [&](const MapPair& p) {
+    add(p.start, p.what);
+    if (o.found.best > 0) add(p.best, p.what);
+  };
+  for (const MapPair& p : o.found.repeats) both(p);
+  if (o.found.finer) both(*o.found.finer);
+  return out;
+}
+
 std::string studyJson(const Study& s, const Comparison& c) {
   StudyJson j{{"name", s.name}, {"version", GAMBESON_VERSION}};
   const Verdict& v = c.verdict;
@@ -276,6 +331,7 @@ std::string studyJson(const Study& s, const Comparison& c) {
   for (const auto& d : c.input.doubts)
     j["verdict"]["failing_checks"].push_back(
         {{"check", d.check}, {"what", d.text}, {"runs", d.runs.names}, {"touches_the_order", d.order}});
+  if (s.optimise) j["optimise"] = optimiseJson(*s.optimise);
   j["limits"] = {{"green_below", s.limits.green}, {"red_above", s.limits.red}, {"source", s.limits.source}};
   for (const AxisExponent& e : c.exponents)
     j["exponents"].push_back({{"axis", e.axis},
@@ -313,6 +369,7 @@ void writeStudyTables(const Study& s, const Comparison& c, const std::filesystem
   writeOwnFile(out / files::elasticities, elasticitiesTable(c));
   writeOwnFile(out / files::meshes, meshesTable(c));
   writeOwnFile(out / files::uncertainty, uncertaintyTable(s, c));
+  if (s.optimise) writeOwnFile(out / files::maps, mapsTable(*s.optimise));
   writeOwnFile(out / files::numbers, studyJson(s, c));
 }
 

@@ -12,6 +12,7 @@
 #include "cases/cloth/fabric.hpp"
 #include "cases/cloth/kind.hpp"
 #include "cases/cloth/patch_fields.hpp"
+#include "cases/cloth/regions.hpp"
 #include "cases/cloth/strain_limit.hpp"
 #include "cases/contact/contact.hpp"
 #include "cases/input/json.hpp"
@@ -133,6 +134,7 @@ struct GarmentCase {
   std::optional<FabricCase> fabric;       ///< that of the case where absent
   std::vector<FabricCase> other_fabrics;  ///< what material fields choose from, beside the fabric
   std::vector<FieldsCase> fields;         ///< thickness, fibre angle and material over its patches
+  std::vector<RegionCase> regions;        ///< named parts, each with a factor on its thickness
   /// Displacement of each control point along the normal, uniform in -amplitude .. amplitude, that the motion starts
   /// from; the rest shape has none.
   double noise_m = 0;

@@ -133,6 +133,20 @@ Object garmentTable() {
             return list;
           })
       .defaultsTo("none")
+      .custom(
+          listOf("regions", regionsTable(),
+                 "named parts of the garment, each with a factor on its thickness, which a study varies or optimises; "
+                 "no two share cloth, and what is in none keeps its thickness"),
+          [table = regionsTable()](const Entry& p, G& g) {
+            readItems(p, "objects", [&](const Entry& item) { readObject(table, item, &g.regions.emplace_back()); });
+          },
+          [table = regionsTable()](const G& g) -> std::optional<JsonNode> {
+            if (g.regions.empty()) return std::nullopt;
+            JsonNode list = emptyList();
+            for (const RegionCase& r : g.regions) list.children.push_back(writeObject(table, &r));
+            return list;
+          })
+      .defaultsTo("none")
       .number("noise", &G::noise_m, "m", between(0, 0.1),
               "largest displacement along the normal, control point by control point (of a mesh: vertex by vertex), "
               "that the motion starts from; what is held stays, and the rest shape has none")

@@ -115,11 +115,14 @@ void checkGarmentFile(const Entry& root, const Case& c, const GarmentCase& garme
                            [&] { return kindOf(garment).look(garment); });
   try {
     applyFields(garment.fields, read);
+    applyRegions(garment.regions, read);
   } catch (const InputError& e) {
-    const std::size_t i = std::stoul(e.where().key.substr(std::string("fields[").size()));
+    const std::string& key = e.where().key;  // "fields[0].patch", "regions[0].parts[1].patch"
+    const std::size_t open = key.find('['), dot = key.find('.');
     const JsonNode* list = root.node.find("garments");
     const Entry entry = list ? root.member(*list).item(k) : root.member(*root.node.find("garment"));
-    listItem(entry, "fields", i).failAt("patch", e.reason());
+    listItem(entry, key.substr(0, open), std::stoul(key.substr(open + 1)))
+        .failAt(key.substr(dot + 1, key.find('[', dot) - dot - 1), e.reason());
   }
   std::vector<std::string> names;
   for (const NamedEdge& e : read.edges) names.push_back(e.name);

@@ -122,7 +122,7 @@ void checkModel(const Entry& entry, const Case& c, const GarmentCase& g) {
         "model",
         "triangles lock where their threads keep their lengths; allowed: strain_limit with a limit, or \"nurbs\"");
   if (!kind.isMesh()) return;
-  for (const char* key : {"fields", "other_fabrics", "stitching", "seam_stiffness"})
+  for (const char* key : {"fields", "regions", "other_fabrics", "stitching", "seam_stiffness"})
     refuse(key, fmt::format("is for drafted garments, not for a {}", kind.word));
 }
 
@@ -138,16 +138,32 @@ void checkFieldsOf(const Entry& entry, const Case& c, const GarmentCase& g) {
       std::none_of(g.fields.begin(), g.fields.end(), [](const FieldsCase& f) { return f.fields.material.has_value(); }))
     entry.failAt("other_fabrics", "is of no use: no material field of this garment chooses from it");
   const GarmentKind& kind = kindOf(g);
-  if (const std::string why = kind.fieldless(g); !why.empty() && !g.fields.empty()) entry.failAt("fields", why);
+  if (const std::string why = kind.fieldless(g); !why.empty()) {
+    if (!g.fields.empty()) entry.failAt("fields", why);
+    if (!g.regions.empty()) entry.failAt("regions", why);
+  }
   if (kind.isRead()) return;  // its file knows (cases/wear/case/references.cpp)
   Garment patches;
   patches.patch_names = kind.patches(g);
   patches.patches.resize(patches.patch_names.size());
   try {
     applyFields(g.fields, patches);
+    applyRegions(g.regions, patches);
   } catch (const InputError& e) {
     failInside(entry, e.where().key, e.reason());
   }
+}
+
+/// Names of regions, and fabrics that no region can make thicker.
+void checkRegions(const Entry& entry, const Case& c, const GarmentCase& g, std::set<std::string>& names) {
+  if (g.regions.empty()) return;
+  const Entry list = entry.member(*entry.node.find("regions"));
+  if (fabricOf(c, g).energy)
+    list.fail("a fabric whose law is a table is one over a whole patch; allowed with regions: moduli and bending");
+  for (std::size_t i = 0; i < g.regions.size(); ++i)
+    if (!names.insert(g.regions[i].name).second)
+      list.item(i).failAt("name",
+                          fmt::format("\"{}\" names two regions; allowed: a name of its own", g.regions[i].name));
 }
 
 /// Of garments of flat panels: how they are put on, and keys that they have no use for.
@@ -164,7 +180,7 @@ void checkSewn(const Entry& root, const Entry& entry, const Case& c, const Garme
 }
 
 void checkGarments(const Entry& root, const Case& c) {
-  std::set<std::string> names;
+  std::set<std::string> names, regions;
   bool all_own = true;
   for (std::size_t i = 0; i < c.garments.size(); ++i) {
     const GarmentCase& g = c.garments[i];
@@ -178,6 +194,7 @@ void checkGarments(const Entry& root, const Case& c) {
       entry.failAt(kind.word, fmt::format("a {} is drafted on a human, and the case has none", kind.word));
     checkModel(entry, c, g);
     checkFieldsOf(entry, c, g);
+    checkRegions(entry, c, g, regions);
     all_own = all_own && g.fabric;
     if (kind.sewn) checkSewn(root, entry, c, kind);
     if (g.stitching && !c.dressing.layer_by_layer && c.dressing.from.empty())

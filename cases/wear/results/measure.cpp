@@ -361,7 +361,7 @@ std::vector<GarmentMeasure> garmentMeasuresOf(const Scenario& s) {
     return static_cast<std::size_t>(patches[static_cast<std::size_t>(surface.patch[sample])].garment);
   };
   for (std::size_t k = 0; k < garments.size(); ++k) {
-    if (effective.garments[k].fields.empty()) continue;
+    if (effective.garments[k].fields.empty() && effective.garments[k].regions.empty()) continue;
     double area = 0, volume = 0, least = std::numeric_limits<double>::infinity(), largest = 0;
     for (std::size_t i = 0; i < thickness.size(); ++i) {
       if (garmentOf(i) != k) continue;

@@ -45,7 +45,8 @@ struct ClothSize {
 
 /// What the garment keeps from others where it is thickest.
 double layerOf(const Case& c, const GarmentCase& worn) {
-  return c.contact.layer_m.value_or(largestThickness(fabricOf(c, worn), otherFabrics(worn), worn.fields));
+  return c.contact.layer_m.value_or(largestThickness(fabricOf(c, worn), otherFabrics(worn), worn.fields) *
+                                    largestFactor(worn.regions));
 }
 
 /// Of arms that are out of the way of panels: from the sides, as in an A-pose. A scan keeps its arms as it stood, where
@@ -142,6 +143,7 @@ void addFabric(const Case& c, const GarmentCase& worn, Garment& garment) {
   garment.fabric = fabricOf(c, worn);
   garment.other_fabrics = otherFabrics(worn);
   applyFields(worn.fields, garment);
+  applyRegions(worn.regions, garment);
 }
 
 std::vector<std::optional<MeshDraft>> readMeshes(const Case& c, const std::vector<Garment>& drafts) {

@@ -30,7 +30,7 @@ const Keys carried{
      "factors dressing time output analysis comfort"},
     {"Garment",
      "name sheet disc tube shorts trousers belt shirt skirt file friction position fabric other_fabrics "
-     "fields noise noise_seed samples_per_cell seam_stiffness weft_angle stitching"},
+     "fields regions noise noise_seed samples_per_cell seam_stiffness weft_angle stitching"},
     {"Sheet", "width height cells_u cells_v degree corner axis_u axis_v"},
     {"Disc", "radius cells degree center axis_u axis_v"},
     {"Tube", "radius length cells_around cells_along degree patches start axis"},
@@ -56,6 +56,8 @@ const Keys carried{
      "friction_curvature_twist c1 hysteresis hysteresis_weft hysteresis_warp hysteresis_at virgin "
      "stops set fatigue cycle set_by recovery recovery_time"},
     {"Fields over a patch", "patch thickness fibre_angle material"},
+    {"Region of a garment", "name parts thickness"},
+    {"Part of a region", "patch u v"},
     {"Thickness field", "degree values"},
     {"Fibre angle field", "degree values"},
     {"Material field", "degree values"},

@@ -217,5 +217,24 @@ TEST(GarmentFields, WhatDoesNotFitIsRefused) {
   EXPECT_THROW(belt("2 N"), InputError);
 }
 
+/// What stands in a file of regions, and comes back from it.
+TEST(GarmentFields, RegionsAreReadAndWritten) {
+  const std::string front =
+      R"x(garment.regions=[{"name": "front", "parts": [{"patch": "trunk_left", "u": [0, 0.35]}], "thickness": 1.5}])x";
+  const Case c = libraryCase("shorts_walk", {front});
+  ASSERT_EQ(c.garments[0].regions.size(), 1u);
+  EXPECT_EQ(c.garments[0].regions[0].parts[0].u[1], 0.35);
+  EXPECT_NE(writeCase(c).find("\"regions\""), std::string::npos);
+  EXPECT_EQ(writeCase(libraryCase("shorts_walk", {})).find("\"regions\""), std::string::npos);
+  for (const auto& [from, to] :
+       {std::pair("trunk_left", "hem"), std::pair("0.35", "0.355"), std::pair("[0, 0.35]", "[1, 0]"),
+        std::pair("1.5", "0"), std::pair("[0, 0.35]", "[0]")})
+    EXPECT_THROW(libraryCase("shorts_walk", {replaced(front, from, to)}), InputError) << to;
+  // Names are of all garments.
+  EXPECT_THROW(
+      libraryCase("armour_stand", {R"(garments[0].regions=[{"name": "a"}])", R"(garments[2].regions=[{"name": "a"}])"}),
+      InputError);
+}
+
 }  // namespace
 }  // namespace gambeson
