@@ -2,7 +2,7 @@
 # To be sourced with the current folder at the root of the sources. `build` is the build folder, `cmake_options` what
 # the caller adds to the configuration.
 
-packages=(g++ cmake ninja-build pkg-config libeigen3-dev liburdfdom-dev libtinyxml-dev libassimp-dev libosmesa6-dev
+packages=(g++ cmake ninja-build pkg-config libboost-dev libeigen3-dev liburdfdom-dev libtinyxml-dev libassimp-dev libosmesa6-dev
   nlohmann-json3-dev libcli11-dev libdime-dev libocct-data-exchange-dev libfmt-dev libhdf5-dev libfreetype-dev libpng-dev zlib1g-dev
   libavcodec-dev libavformat-dev libavutil-dev libswscale-dev libsuitesparse-dev libopenblas-serial-dev fonts-dejavu-core libjs-three)
 test_packages=(libgtest-dev libbenchmark-dev libgmp-dev libcgal-dev python3)

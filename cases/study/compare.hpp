@@ -10,6 +10,7 @@
 #include "analysis/verdict.hpp"
 #include "analysis/viewer/viewer.hpp"
 #include "cases/study/numbers.hpp"
+#include "cases/study/population_answer.hpp"
 #include "cases/study/run.hpp"
 
 namespace gambeson::study {
@@ -63,6 +64,7 @@ struct Comparison {
   std::vector<AxisExponent> exponents;
   std::vector<ElasticityRow> elasticities;
   std::vector<MeshRow> meshes;
+  std::optional<PopulationAnswer> population;  ///< where wearers are drawn
   VerdictInput input;
   Verdict verdict;
 };

@@ -37,6 +37,7 @@ struct StudyInput {
   std::vector<AxisInput> axes;
   std::vector<ExtraInput> variants;
   std::optional<ElasticityInput> elasticities;
+  std::optional<PopulationInput> population;
   Limits limits = publishedLimits();
   std::vector<PictureCase> pictures{
       {PictureTime::peak, 0, PictureField::stress, View::front_right, PictureAround::wearer, 640, 720},

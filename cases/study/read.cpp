@@ -48,6 +48,12 @@ std::string safe(const std::string& text) {
   return s;
 }
 
+/// Messages about a value that the study makes point at the line that it follows from.
+void placeAt(JsonNode& node, int line) {
+  node.line = line;
+  for (JsonNode& child : node.children) placeAt(child, line);
+}
+
 std::vector<Setting> settingsOf(const Entry& entry) {
   if (entry.node.type != JsonNode::Type::object)
     entry.fail("expected an object { } of path: value, not " + describe(entry.node));
@@ -370,6 +376,61 @@ void addElasticities(const Entry& root, const ElasticityInput& in, Maker& maker,
       }
 }
 
+/// Axes of the wearers and of their sizes, and a variant for each size that a wearer tries.
+void addPopulation(const Entry& root, const StudyInput& in, Study& s) {
+  const Entry at = root.member(*root.node.find("population"));
+  for (const char* key : {"axes", "variants", "elasticities", "baseline"})
+    if (root.node.find(key)) root.failAt(key, "excludes population; allowed: one of both");
+  s.population = drawPopulation(*in.population);
+  s.compared = {0};
+  s.baseline = {0};  // in the order of the wearers; none of them is what others are compared with
+  Axis wearers;
+  wearers.name = "wearer";
+  wearers.role = Role::wearer;
+  wearers.labelled = true;
+  for (const Wearer& w : s.population->wearers) {
+    JsonNode manikin = manikinNode(w.measures);
+    placeAt(manikin, at.node.line);
+    wearers.levels.push_back({w.label, w.name, w.folder, {{"human.manikin", manikin}}, {}});
+  }
+  s.axes.push_back(std::move(wearers));
+  if (!s.population->sized()) return;
+  Axis sizes;
+  sizes.name = "size";
+  sizes.role = Role::size;
+  sizes.labelled = true;
+  const Entry list = at.member(*at.node.find("sizes"));
+  for (std::size_t k = 0; k < in.population->sizes.size(); ++k) {
+    const GarmentSize& size = in.population->sizes[k];
+    Level level{size.label, "size " + size.label, "size_" + safe(size.label), {}, {}};
+    if (size.set.type != JsonNode::Type::null)
+      level.set = settingsOf(list.item(k).member(*list.item(k).node.find("set")));
+    sizes.levels.push_back(std::move(level));
+  }
+  s.axes.push_back(std::move(sizes));
+}
+
+/// A variant for each wearer, or for each size that a wearer tries.
+void addWearers(const Entry& root, Maker& maker, Study& s) {
+  const Entry at = root.member(*root.node.find("population"));
+  const Population& p = *s.population;
+  for (std::size_t w = 0; w < p.wearers.size(); ++w) {
+    if (!p.sized()) maker.add({static_cast<int>(w)}, {}, "", at);
+    for (const int size : p.wearers[w].sizes) {
+      std::vector<Setting> grades;
+      for (const Grade& g : p.input.grades) {
+        JsonNode ease =
+            schema::nodeOf(easeOf(g, p.input.sizes[static_cast<std::size_t>(size)], p.wearers[w].measures));
+        placeAt(ease, at.node.line);
+        grades.push_back({g.path, ease});
+      }
+      maker.add({static_cast<int>(w), size}, grades, "", at);
+      s.variants.back().grid = true;
+    }
+  }
+  if (s.variants.empty()) at.failAt("sizes", "no size is wide enough for any wearer; allowed: one that is");
+}
+
 /// Without axes the first variant is what the others are compared with.
 void linkBaselines(Study& s) {
   if (s.axes.empty())
@@ -396,7 +457,9 @@ Study readStudy(const std::filesystem::path& file) {
   s.file = file;
   s.limits = in.limits;
   s.pictures = in.pictures;
-  if (in.axes.empty() && in.variants.empty()) entry.fail("one of axes or variants is required, and not empty");
+  if (in.axes.empty() && in.variants.empty() && !in.population)
+    entry.fail("one of axes, variants or population is required, and not empty");
+  if (in.population) addPopulation(entry, in, s);
   for (std::size_t a = 0; a < in.axes.size(); ++a) {
     const Entry at = entry.member(*root.find("axes")).item(a);
     Axis axis = axisOf(at, in.axes[a]);
@@ -405,9 +468,11 @@ Study readStudy(const std::filesystem::path& file) {
         at.failAt("name", fmt::format("\"{}\" names two axes; allowed: a name of its own", axis.name));
     s.axes.push_back(std::move(axis));
   }
-  findBaseline(entry, in, s);
+  if (!s.population) findBaseline(entry, in, s);
   Maker maker(entry, in, s);
-  if (!s.axes.empty()) {
+  if (s.population) {
+    addWearers(entry, maker, s);
+  } else if (!s.axes.empty()) {
     const Entry axes = entry.member(*root.find("axes"));
     for (const auto& levels : combinations(allLevels(s), 1, axes)) maker.add(levels, {}, "", axes);
   }
@@ -422,7 +487,7 @@ Study readStudy(const std::filesystem::path& file) {
     s.variants.back().finer = in.variants[i].finer;
   }
   if (in.elasticities) addElasticities(entry, *in.elasticities, maker, s);
-  linkBaselines(s);
+  if (!s.population) linkBaselines(s);
   return s;
 }
 

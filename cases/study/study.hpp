@@ -10,6 +10,7 @@
 #include "analysis/verdict.hpp"
 #include "cases/input/schema.hpp"
 #include "cases/kinds/any_case.hpp"
+#include "cases/study/population.hpp"
 
 namespace gambeson::study {
 
@@ -66,6 +67,8 @@ struct Study {
   std::vector<Variant> variants;
   Limits limits;
   std::vector<PictureCase> pictures;
+  /// Where wearers are drawn: the first axis is theirs, a second one that of the sizes, where there are some.
+  std::optional<Population> population;
 };
 
 /// Reads and checks a study and all its variants. Throws InputError: file, line, key, what is allowed; of a variant

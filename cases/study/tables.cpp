@@ -8,25 +8,14 @@
 
 #include "cases/study/compare.hpp"
 #include "cases/study/files.hpp"
-#include "core/io/csv_text.hpp"
+#include "cases/study/population_answer.hpp"
+#include "cases/study/table_cells.hpp"
 #include "core/io/own_file.hpp"
 
 namespace gambeson::study {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
-Json number(const std::optional<double>& x) { return x ? number(*x) : Json(nullptr); }
-
-/// A line of a table; empty cells for what is not known.
-std::string csvRow(const std::vector<std::string>& cells) {
-  std::string line;
-  for (std::size_t k = 0; k < cells.size(); ++k) line.append(k > 0 ? "," : "").append(csvText(cells[k]));
-  return line.append(1, '\n');
-}
-std::string cell(double x) { return std::isfinite(x) ? fmt::format("{}", x) : ""; }
-std::string cell(const std::optional<double>& x) { return x ? cell(*x) : ""; }
+using namespace cells;
 
 /// Names in the order in which the runs have them first.
 template <class Each>
@@ -300,6 +289,7 @@ std::string studyJson(const Study& s, const Comparison& c) {
                            {"fine_peak_Nm", number(m.fine_Nm)},
                            {"peak_difference_ratio", number(m.difference)},
                            {"history_difference_of_peak", number(m.course)}});
+  if (c.population) j["population"] = populationJson(s, *c.population);
   j["variants"] = Json::array();
   for (std::size_t i = 0; i < s.variants.size(); ++i) j["variants"].push_back(variantJson(s, c, i));
   return j.dump(2) + "\n";
@@ -313,6 +303,9 @@ void writeStudyTables(const Study& s, const Comparison& c, const std::filesystem
   writeOwnFile(out / files::exponents, exponentsTable(c));
   writeOwnFile(out / files::elasticities, elasticitiesTable(c));
   writeOwnFile(out / files::meshes, meshesTable(c));
+  // Of an earlier study in this folder.
+  if (!c.population && isOwnFile(out / files::population)) removeOwnFile(out / files::population);
+  if (c.population) writeOwnFile(out / files::population, populationCsv(s, *c.population));
   writeOwnFile(out / files::numbers, studyJson(s, c));
 }
 
