@@ -20,7 +20,7 @@ using html::element;
 using html::escape;
 using html::prose;
 
-std::string item(const std::string& question, const std::string& html) {
+std::string answerItem(const std::string& question, const std::string& html) {
   return element("dt", escape(question)) + element("dd", html);
 }
 
@@ -216,7 +216,7 @@ std::string wearersTable(const Study& s, const PopulationAnswer& a) {
                           "99th percentile of stature or mass of the people measured: the body is extrapolated."));
 }
 
-std::string drawnOf(const Study& s, const PopulationAnswer& a) {
+std::string drawingOf(const Study& s, const PopulationAnswer& a) {
   const Population& p = *s.population;
   std::string list;
   const auto say = [&](const std::string& text) { list += element("li", prose(text)); };
@@ -257,19 +257,19 @@ std::string populationHeadline(const Study& s, const Comparison& c, const std::v
   for (const PopulationShare& share : a.shares) {
     std::string what = share.what;
     what[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(what[0])));
-    list += item(what, element("span", prose(shareText(share)), " class=\"reason\""));
+    list += answerItem(what, element("span", prose(shareText(share)), " class=\"reason\""));
   }
   std::string pressed;
   for (const auto& [zone, count] : pressedOf(a))
     pressed += fmt::format("{}{} {}", pressed.empty() ? "" : ", ", zone, count);
-  if (!pressed.empty()) list += item("Presses most at", prose(pressed));
+  if (!pressed.empty()) list += answerItem("Presses most at", prose(pressed));
   if (s.population->sized()) {
     const std::vector<int> takers = takersOf(s, a);
     std::string sizes;
     for (std::size_t k = 0; k + 1 < takers.size(); ++k)
       sizes += fmt::format("{}{} {}", sizes.empty() ? "" : ", ", s.population->input.sizes[k].label, takers[k]);
     if (takers.back() > 0) sizes += fmt::format(", none {}", takers.back());
-    list += item("Sizes", prose(sizes));
+    list += answerItem("Sizes", prose(sizes));
   }
   std::string burdened;
   for (const std::size_t w : a.worst) {
@@ -281,7 +281,7 @@ std::string populationHeadline(const Study& s, const Comparison& c, const std::v
     burdened += (burdened.empty() ? "" : "<br>") + linkTo(s.variants[f.variant], s.population->wearers[w].name) +
                 element("span", prose(": " + cost), " class=\"reason\"");
   }
-  if (!burdened.empty()) list += item("Burdens most", burdened);
+  if (!burdened.empty()) list += answerItem("Burdens most", burdened);
   std::string words =
       element("p", prose(a.sentence), " class=\"sentence\"") + element("dl", list, " class=\"answers\"");
   std::string body = element("div", words, " class=\"words\"");
@@ -309,7 +309,7 @@ std::string populationOf(const Study& s, const Comparison& c, const std::vector<
   std::string out = plotsOf(s, *c.population) + wearersTable(s, *c.population);
   if (!worst.empty())
     out += element("h3", "Those it burdens most, at the peak of each") + element("div", worst, " class=\"pictures\"");
-  return out + folded("How the wearers were drawn, and what counts", drawnOf(s, *c.population));
+  return out + folded("How the wearers were drawn, and what counts", drawingOf(s, *c.population));
 }
 
 }  // namespace gambeson::study

@@ -48,7 +48,8 @@ Fitting fittingOf(const Study& s, const RunNumbers& r, std::size_t variant) {
       f.worst_part = j.part(), f.worst_joint = j.label;
   }
   for (JointBurden& b : f.burdens)
-    if (b.looked) b.light = shownLight(b.touched ? lightOf(b.part, s.limits.green, s.limits.red) : Light::green, trust);
+    if (b.looked)
+      b.light = shownLight(b.touched ? gambeson::lightOf(b.part, s.limits.green, s.limits.red) : Light::green, trust);
   if (const ComfortNumbers* k = r.leastComfortable()) {
     f.presses = k->zone;
     f.comfort = shownLight(lightNamed(k->light), trust);
@@ -109,7 +110,7 @@ void addShares(const PopulationAnswer& a, std::vector<PopulationShare>& shares) 
 }
 
 /// Those it does not go on, then those of the largest part; of equal ones the first.
-std::vector<std::size_t> worstOf(const PopulationAnswer& a) {
+std::vector<std::size_t> burdenedMost(const PopulationAnswer& a) {
   constexpr std::size_t most = 3;
   std::vector<std::size_t> order;
   for (std::size_t w = 0; w < a.wearers.size(); ++w)
@@ -120,7 +121,7 @@ std::vector<std::size_t> worstOf(const PopulationAnswer& a) {
   return order;
 }
 
-std::string sentenceOf(const PopulationAnswer& a) {
+std::string answerSentence(const PopulationAnswer& a) {
   const auto say = [](const PopulationShare& s) { return fmt::format("{} of {}", s.yes, s.of()); };
   const PopulationShare& on = a.shares[0];
   std::string text = fmt::format("{} wearers can put it on", say(on));
@@ -148,8 +149,8 @@ PopulationAnswer answerOf(const Study& s, const std::vector<RunNumbers>& runs) {
   }
   a.shares.push_back(putOn(a));
   addShares(a, a.shares);
-  a.worst = worstOf(a);
-  a.sentence = sentenceOf(a);
+  a.worst = burdenedMost(a);
+  a.sentence = answerSentence(a);
   return a;
 }
 

@@ -7,21 +7,17 @@
 #include <map>
 #include <set>
 
-#include "cases/input/mistakes.hpp"
 #include "cases/input/table.hpp"
 #include "cases/input/units.hpp"
 #include "cases/study/files.hpp"
-#include "cases/study/input.hpp"
+#include "cases/study/maker.hpp"
+#include "cases/study/read_population.hpp"
 #include "core/error.hpp"
 
 namespace gambeson::study {
 namespace {
 
 using schema::Entry;
-
-constexpr std::size_t most_variants = 2000;
-
-[[noreturn]] void tooMany(const Entry& at) { at.fail("more than 2,000 variants; allowed: at most 2,000 together"); }
 
 // --- From the fields to axes ------------------------------------------------------------------------------------
 
@@ -36,31 +32,6 @@ std::string textOf(const JsonNode& value) {
     default:
       return "";
   }
-}
-
-/// What a folder's name may have.
-std::string safe(const std::string& text) {
-  std::string s;
-  for (const char c : text)
-    s += (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+'
-             ? c
-             : '_';
-  return s;
-}
-
-/// Messages about a value that the study makes point at the line that it follows from.
-void placeAt(JsonNode& node, int line) {
-  node.line = line;
-  for (JsonNode& child : node.children) placeAt(child, line);
-}
-
-std::vector<Setting> settingsOf(const Entry& entry) {
-  if (entry.node.type != JsonNode::Type::object)
-    entry.fail("expected an object { } of path: value, not " + describe(entry.node));
-  if (entry.node.children.empty()) entry.fail("is empty; allowed: at least one path: value");
-  std::vector<Setting> all;
-  for (const JsonNode& child : entry.node.children) all.push_back({child.key, child});
-  return all;
 }
 
 /// What a value of the case is about.
@@ -233,83 +204,6 @@ void findBaseline(const Entry& root, const StudyInput& in, Study& s) {
 
 // --- From the axes to variants ----------------------------------------------------------------------------------
 
-/// Builds and checks variants one by one.
-class Maker {
- public:
-  Maker(const Entry& entry, const StudyInput& in, Study& study) : entry_(entry), in_(in), study_(study) {
-    base_ = readJson(in.file);
-    if (in.set.type != JsonNode::Type::null) common_ = settingsOf(entry.member(*entry.node.find("set")));
-  }
-
-  void add(std::vector<int> levels, const std::vector<Setting>& more, const std::string& extra_label, const Entry& at) {
-    Variant v;
-    v.levels = std::move(levels);
-    v.grid = more.empty();
-    JsonNode root = base_;
-    std::vector<Setting> all = common_;
-    for (std::size_t a = 0; a < study_.axes.size(); ++a) {
-      const Axis& axis = study_.axes[a];
-      const Level& level = axis.levels[static_cast<std::size_t>(v.levels[a])];
-      all.insert(all.end(), level.set.begin(), level.set.end());
-      v.folder += (v.folder.empty() ? "" : "__") + level.folder;
-      v.label += (v.label.empty() ? "" : ", ") + level.name;
-    }
-    all.insert(all.end(), more.begin(), more.end());
-    if (!extra_label.empty()) {
-      v.folder += (v.folder.empty() ? "" : "__") + safe(extra_label);
-      v.label += (v.label.empty() ? "" : ", ") + extra_label;
-    }
-    if (const std::string why = files::unfitFolder(v.folder); !why.empty()) at.fail(fmt::format("a variant {}", why));
-    if (!folders_.insert(v.folder).second)
-      at.fail(fmt::format("there are two variants {}; allowed: labels that differ", v.label));
-    if (study_.variants.size() >= most_variants) tooMany(at);
-    try {
-      for (const Setting& s : all) overrideValue(root, s.path, s.value, entry_.file);
-      v.definition = readAnyCase(root, in_.file);
-    } catch (const InputError& e) {
-      Mistakes of_variant;
-      for (const InputError& one : mistakesOf(e))
-        of_variant.add(InputError(one.where(), fmt::format("{} (variant {})", one.reason(), v.label)));
-      of_variant.say();
-    }
-    introduce(v);
-    identify(v);
-    study_.variants.push_back(std::move(v));
-  }
-
-  static void identify(Variant& v) {
-    v.identity = std::visit([](const auto& c) { return caseIdentity(c); }, v.definition);
-    if (const auto* c = std::get_if<Case>(&v.definition)) {
-      Case rest = *c;
-      rest.factors = {};
-      rest.name = "rest";
-      v.rest_identity = caseIdentity(rest);
-    }
-  }
-
- private:
-  /// The name and description of the case tell its own motion, which a variant may replace: a variant has the study's.
-  void introduce(Variant& v) const {
-    const bool ends = study_.name.ends_with('?') || study_.name.ends_with('!') || study_.name.ends_with('.');
-    std::string label = v.label;
-    if (ends && !label.empty()) label[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(label[0])));
-    std::visit(
-        [&](auto& c) {
-          c.name = study_.name + (ends ? " " : ": ") + label;
-          c.description = fmt::format("One run of the study \"{}\".{}{}", study_.name,
-                                      study_.description.empty() ? "" : " ", study_.description);
-        },
-        v.definition);
-  }
-
-  const Entry& entry_;
-  const StudyInput& in_;
-  Study& study_;
-  JsonNode base_;
-  std::vector<Setting> common_;
-  std::set<std::string> folders_;
-};
-
 /// All combinations of levels of the axes, the last axis fastest, each for `runs` variants. Counted first: they may be
 /// too many to be built.
 std::vector<std::vector<int>> combinations(const std::vector<std::vector<int>>& choices, std::size_t runs,
@@ -374,61 +268,6 @@ void addElasticities(const Entry& root, const ElasticityInput& in, Maker& maker,
         node.line = entry.node.line;
         maker.add(levels, {{fmt::format("factors.{}", factor), node}}, fmt::format("{} x {:g}", factor, value), entry);
       }
-}
-
-/// Axes of the wearers and of their sizes, and a variant for each size that a wearer tries.
-void addPopulation(const Entry& root, const StudyInput& in, Study& s) {
-  const Entry at = root.member(*root.node.find("population"));
-  for (const char* key : {"axes", "variants", "elasticities", "baseline"})
-    if (root.node.find(key)) root.failAt(key, "excludes population; allowed: one of both");
-  s.population = drawPopulation(*in.population);
-  s.compared = {0};
-  s.baseline = {0};  // in the order of the wearers; none of them is what others are compared with
-  Axis wearers;
-  wearers.name = "wearer";
-  wearers.role = Role::wearer;
-  wearers.labelled = true;
-  for (const Wearer& w : s.population->wearers) {
-    JsonNode manikin = manikinNode(w.measures);
-    placeAt(manikin, at.node.line);
-    wearers.levels.push_back({w.label, w.name, w.folder, {{"human.manikin", manikin}}, {}});
-  }
-  s.axes.push_back(std::move(wearers));
-  if (!s.population->sized()) return;
-  Axis sizes;
-  sizes.name = "size";
-  sizes.role = Role::size;
-  sizes.labelled = true;
-  const Entry list = at.member(*at.node.find("sizes"));
-  for (std::size_t k = 0; k < in.population->sizes.size(); ++k) {
-    const GarmentSize& size = in.population->sizes[k];
-    Level level{size.label, "size " + size.label, "size_" + safe(size.label), {}, {}};
-    if (size.set.type != JsonNode::Type::null)
-      level.set = settingsOf(list.item(k).member(*list.item(k).node.find("set")));
-    sizes.levels.push_back(std::move(level));
-  }
-  s.axes.push_back(std::move(sizes));
-}
-
-/// A variant for each wearer, or for each size that a wearer tries.
-void addWearers(const Entry& root, Maker& maker, Study& s) {
-  const Entry at = root.member(*root.node.find("population"));
-  const Population& p = *s.population;
-  for (std::size_t w = 0; w < p.wearers.size(); ++w) {
-    if (!p.sized()) maker.add({static_cast<int>(w)}, {}, "", at);
-    for (const int size : p.wearers[w].sizes) {
-      std::vector<Setting> grades;
-      for (const Grade& g : p.input.grades) {
-        JsonNode ease =
-            schema::nodeOf(easeOf(g, p.input.sizes[static_cast<std::size_t>(size)], p.wearers[w].measures));
-        placeAt(ease, at.node.line);
-        grades.push_back({g.path, ease});
-      }
-      maker.add({static_cast<int>(w), size}, grades, "", at);
-      s.variants.back().grid = true;
-    }
-  }
-  if (s.variants.empty()) at.failAt("sizes", "no size is wide enough for any wearer; allowed: one that is");
 }
 
 /// Without axes the first variant is what the others are compared with.
