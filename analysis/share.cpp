@@ -1,6 +1,5 @@
 #include "analysis/share.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace gambeson {
@@ -11,7 +10,8 @@ ShareInterval wilsonInterval(int yes, int of) {
   const double n = of, p = yes / n;
   const double middle = (yes + 0.5 * z * z) / (n + z * z);
   const double half = z * std::sqrt(n) / (n + z * z) * std::sqrt(p * (1 - p) + z * z / (4 * n));
-  return {std::max(0.0, middle - half), std::min(1.0, middle + half)};
+  // The ends are 0 and 1 there but for rounding.
+  return {yes == 0 ? 0 : middle - half, yes == of ? 1 : middle + half};
 }
 
 }  // namespace gambeson

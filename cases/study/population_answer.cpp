@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/ticks.hpp"
-
 namespace gambeson::study {
 namespace {
 
@@ -18,8 +16,8 @@ std::pair<Dressed, std::string> wornOf(const RunNumbers& r) {
   for (const Stretch& s : r.stretch)
     if (s.stated && !s.holds())
       return {Dressed::stretched,
-              fmt::format("the fabric is stretched by {} %{}, and stands {} %", formatNumber(100 * s.largest),
-                          s.along.empty() ? "" : " along its " + s.along, formatNumber(100 * s.limit))};
+              fmt::format("the fabric is stretched by {:.3g} %{}, and stands {:.3g} %", 100 * s.largest,
+                          s.along.empty() ? "" : " along its " + s.along, 100 * s.limit)};
   return {Dressed::yes, ""};
 }
 

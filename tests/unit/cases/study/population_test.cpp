@@ -14,6 +14,7 @@ namespace gambeson::study {
 namespace {
 
 using namespace tested;
+using schema::toText;
 
 const std::string shorts = R"({"name": "shorts", "garment": {"shorts": {"cell": "60 mm"}},
   "fabric": {"thickness": "1 mm", "density": "500 kg/m^3", "young": "1 MPa", "poisson": 0.3,
@@ -23,12 +24,12 @@ const std::string shorts = R"({"name": "shorts", "garment": {"shorts": {"cell": 
 /// The first line below is line 1 of the file.
 const std::string drawn = R"({"name": "whom?", "case": "shorts.json", "pictures": [],
   "population": {
-    "source": "ansur2", "count": 9, "women": 0.4, "seed": 3
+    "source": "ansur2", "count": 5, "women": 0.4, "seed": 3
   }
 })";
 const std::string sized = R"({"name": "whom?", "case": "shorts.json", "pictures": [],
   "population": {
-    "source": "ansur2", "count": 8, "tries": 2,
+    "source": "ansur2", "count": 4, "tries": 2,
     "grades": [{"girth": "hip", "path": "garment.shorts.ease", "ease": 0.06},
                {"girth": "waist", "path": "garment.shorts.waist_ease", "ease": 0.06, "least": 0.01}],
     "sizes": [{"label": "S", "hip": "95 cm", "waist": "86 cm"},
@@ -43,6 +44,16 @@ Study readPopulation(const std::string& text) {
   return readStudy(folder.write("a.study.json", text));
 }
 
+/// Bodies take a while to be made and checked: each study is read once.
+const Study& drawnStudy() {
+  static const Study study = readPopulation(drawn);
+  return study;
+}
+const Study& sizedStudy() {
+  static const Study study = readPopulation(sized);
+  return study;
+}
+
 std::string refusal(const std::string& text) {
   try {
     readPopulation(text);
@@ -53,13 +64,13 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(StudyPopulation, EveryWearerIsAVariantWithHisOwnBody) {
-  const Study s = readPopulation(drawn);
+  const Study& s = drawnStudy();
   ASSERT_TRUE(s.population);
-  EXPECT_EQ(s.population->men, 5);
-  EXPECT_EQ(s.population->women, 4);
-  ASSERT_EQ(s.variants.size(), 9u);
+  EXPECT_EQ(s.population->men, 3);
+  EXPECT_EQ(s.population->women, 2);
+  ASSERT_EQ(s.variants.size(), 5u);
   EXPECT_EQ(s.variants[0].folder, "man_01");
-  EXPECT_EQ(s.variants[8].folder, "woman_04");
+  EXPECT_EQ(s.variants[4].folder, "woman_02");
   EXPECT_EQ(s.axes[0].role, Role::wearer);
   for (std::size_t i = 0; i < s.variants.size(); ++i) {
     const Case& c = std::get<Case>(s.variants[i].definition);
@@ -69,13 +80,17 @@ TEST(StudyPopulation, EveryWearerIsAVariantWithHisOwnBody) {
     EXPECT_EQ(s.variants[i].baseline, -1);
   }
   // A larger population keeps whom it has: what was run is not run again.
-  const Study more = readPopulation(replaced(drawn, "\"count\": 9", "\"count\": 20"));
-  EXPECT_EQ(variant(more, "man_05").identity, variant(s, "man_05").identity);
-  EXPECT_NE(variant(more, "man_05").identity, variant(more, "man_04").identity);
+  PopulationInput more = s.population->input;
+  more.count = 20;
+  const Population large = drawPopulation(more);
+  EXPECT_EQ(large.wearers[2].folder, "man_03");
+  EXPECT_EQ(toText(manikinNode(large.wearers[2].measures)), toText(manikinNode(s.population->wearers[2].measures)));
+  EXPECT_EQ(large.wearers[12].folder, "woman_01");
+  EXPECT_EQ(toText(manikinNode(large.wearers[12].measures)), toText(manikinNode(s.population->wearers[3].measures)));
 }
 
 TEST(StudyPopulation, EachTriesTheNearestSizesThatAreWideEnough) {
-  const Study s = readPopulation(sized);
+  const Study& s = sizedStudy();
   const Population& p = *s.population;
   int without = 0;
   for (const Wearer& w : p.wearers) {
@@ -112,9 +127,11 @@ TEST(StudyPopulation, EachTriesTheNearestSizesThatAreWideEnough) {
 }
 
 TEST(StudyPopulation, WhomNoSizeGoesAroundIsToldHowMuchIsMissing) {
-  const Study s = readPopulation(replaced(replaced(sized, "\"count\": 8", "\"count\": 40"), "\"106 cm\"", "\"97 cm\""));
+  PopulationInput in = sizedStudy().population->input;
+  in.count = 40;
+  in.sizes[2].girth_m[1] = 0.97;
   int without = 0;
-  for (const Wearer& w : s.population->wearers)
+  for (const Wearer& w : drawPopulation(in).wearers)
     if (w.sizes.empty()) {
       ++without;
       EXPECT_NE(w.no_size.find("cm too narrow for the"), std::string::npos) << w.no_size;
@@ -126,7 +143,7 @@ TEST(StudyPopulation, WhomNoSizeGoesAroundIsToldHowMuchIsMissing) {
 TEST(StudyPopulation, MistakesAreSaidWithTheirLine) {
   EXPECT_NE(refusal(replaced(drawn, "\"ansur2\"", "\"caesar\"")).find("a.study.json:3: population.source"),
             std::string::npos);
-  EXPECT_NE(refusal(replaced(drawn, "\"count\": 9", "\"count\": 0")).find("population.count"), std::string::npos);
+  EXPECT_NE(refusal(replaced(drawn, "\"count\": 5", "\"count\": 0")).find("population.count"), std::string::npos);
   EXPECT_NE(refusal(replaced(drawn, "\"pictures\"", "\"axes\": [], \"pictures\"")).find("excludes population"),
             std::string::npos);
   EXPECT_NE(refusal(replaced(sized, "\"waist\": \"86 cm\"", "\"chest\": \"86 cm\"")).find("population.sizes[0].waist"),
@@ -165,7 +182,7 @@ std::vector<RunNumbers> runsOf(const Study& s) {
 }
 
 TEST(StudyPopulation, SharesCountWhoIsSpared) {
-  const Study s = readPopulation(drawn);
+  const Study& s = drawnStudy();
   std::vector<RunNumbers> runs = runsOf(s);
   runs[0].crossings_dressed = 2;
   runs[1].good = false;
@@ -178,15 +195,15 @@ TEST(StudyPopulation, SharesCountWhoIsSpared) {
     comfortable += runs[i].comfort[0].light == "green";
   }
   ASSERT_EQ(a.shares.size(), 4u);  // put on, hip, elbow, comfort; no knee was looked at
-  EXPECT_EQ(a.shares[0].yes, 7);
+  EXPECT_EQ(a.shares[0].yes, 3);
   EXPECT_EQ(a.shares[0].no, 2);
   EXPECT_EQ(a.shares[1].what, "hip stays green");
   EXPECT_EQ(a.shares[1].yes, green);
-  EXPECT_EQ(a.shares[1].no, 7 - green);
+  EXPECT_EQ(a.shares[1].no, 3 - green);
   EXPECT_EQ(a.shares[1].unknown, 2);
   EXPECT_EQ(a.shares[1].doubtful, *runs[2].joints[0].part() < 0.05 ? 1 : 0);
   EXPECT_EQ(a.shares[2].what, "elbow stays green");
-  EXPECT_EQ(a.shares[2].yes, 7);
+  EXPECT_EQ(a.shares[2].yes, 3);
   EXPECT_EQ(a.shares[3].yes, comfortable);
   // First whom it does not go on, then the heaviest; who has no run cannot be pictured.
   ASSERT_EQ(a.worst.size(), 3u);
@@ -195,23 +212,23 @@ TEST(StudyPopulation, SharesCountWhoIsSpared) {
   for (std::size_t i = 2; i < runs.size(); ++i)
     if (s.population->wearers[i].measures.mass_kg > s.population->wearers[heaviest].measures.mass_kg) heaviest = i;
   EXPECT_EQ(a.worst[1], heaviest);
-  EXPECT_TRUE(a.sentence.starts_with("7 of 9 wearers can put it on"));
+  EXPECT_TRUE(a.sentence.starts_with("3 of 5 wearers can put it on"));
 }
 
 TEST(StudyPopulation, AFabricStretchedBeyondItsCardDoesNotGoOn) {
-  const Study s = readPopulation(drawn);
+  const Study& s = drawnStudy();
   std::vector<RunNumbers> runs = runsOf(s);
   for (RunNumbers& r : runs) r.stretch = {{0.02, 0.1, 0.5, false, "", ""}};
-  EXPECT_EQ(answerOf(s, runs).shares[0].yes, 9);  // a law's range is no limit of the card
+  EXPECT_EQ(answerOf(s, runs).shares[0].yes, 5);  // a law's range is no limit of the card
   EXPECT_FALSE(answerOf(s, runs).judged_stretch);
   runs[4].stretch[0] = {0.2, 0.1, 0.25, true, "", "weft"};
   const PopulationAnswer a = answerOf(s, runs);
-  EXPECT_EQ(a.shares[0].yes, 8);
+  EXPECT_EQ(a.shares[0].yes, 4);
   EXPECT_EQ(a.wearers[4].taken()->why, "the fabric is stretched by 25 % along its weft, and stands 20 %");
 }
 
 TEST(StudyPopulation, TheSizeIsTheOneThatGoesOnAndBurdensLeast) {
-  const Study s = readPopulation(sized);
+  const Study& s = sizedStudy();
   std::vector<RunNumbers> runs = runsOf(s);
   PopulationAnswer a = answerOf(s, runs);
   for (std::size_t w = 0; w < a.wearers.size(); ++w)
@@ -220,7 +237,8 @@ TEST(StudyPopulation, TheSizeIsTheOneThatGoesOnAndBurdensLeast) {
     }
   // Where that one does not go on, another does.
   std::size_t two = 0;
-  while (a.wearers[two].fittings.size() < 2) ++two;
+  while (two < a.wearers.size() && a.wearers[two].fittings.size() < 2) ++two;
+  ASSERT_LT(two, a.wearers.size());
   runs[a.wearers[two].taken()->variant].good = false;
   const int before = a.wearers[two].taken()->size;
   a = answerOf(s, runs);
@@ -229,7 +247,7 @@ TEST(StudyPopulation, TheSizeIsTheOneThatGoesOnAndBurdensLeast) {
 }
 
 TEST(StudyPopulation, TheTableHasARowForEachTry) {
-  const Study s = readPopulation(sized);
+  const Study& s = sizedStudy();
   const PopulationAnswer a = answerOf(s, runsOf(s));
   const std::string csv = populationCsv(s, a);
   std::size_t rows = 0, expected = 1;
@@ -237,17 +255,17 @@ TEST(StudyPopulation, TheTableHasARowForEachTry) {
   for (const WearerAnswer& w : a.wearers) expected += std::max<std::size_t>(1, w.fittings.size());
   EXPECT_EQ(rows, expected);
   const auto j = populationJson(s, a);
-  EXPECT_EQ(j.at("wearers").size(), 8u);
-  EXPECT_EQ(j.at("shares").at(0).at("yes").get<int>() + j.at("shares").at(0).at("no").get<int>(), 8);
+  EXPECT_EQ(j.at("wearers").size(), 4u);
+  EXPECT_EQ(j.at("shares").at(0).at("yes").get<int>() + j.at("shares").at(0).at("no").get<int>(), 4);
 }
 
 /// The page says what was found, and draws it.
 TEST(StudyPopulation, ThePageAnswersFirst) {
-  const Study s = readPopulation(drawn);
+  const Study& s = drawnStudy();
   const Comparison c = compare(s, runsOf(s));
   ASSERT_TRUE(c.population);
   const std::string page = studyPage(s, c, {}, {});
-  EXPECT_NE(page.find("9 of 9 wearers can put it on"), std::string::npos);
+  EXPECT_NE(page.find("5 of 5 wearers can put it on"), std::string::npos);
   EXPECT_NE(page.find("How the burden is spread"), std::string::npos);
   EXPECT_NE(page.find("Where it presses"), std::string::npos);
   EXPECT_NE(page.find("man_01/report.html"), std::string::npos);
