@@ -32,16 +32,23 @@ std::string shareText(const PopulationShare& p) {
   const ShareInterval i = p.interval();
   std::string text = fmt::format("{} of {}: {} % (between {} and {} % of all people)", p.yes, p.of(),
                                  whole(static_cast<double>(p.yes) / p.of()), whole(i.low), whole(i.high));
-  if (p.doubtful > 0) text += fmt::format("; {} of them doubtful: a check of the run fails", p.doubtful);
+  if (p.doubtful > 0)
+    text += fmt::format("; {} of them doubtful: a check fails, or the fabric stretches further than it is meant for",
+                        p.doubtful);
   if (p.unknown > 0) text += fmt::format("; {} not known", p.unknown);
   return text;
 }
 
-/// How many wearers a part of the body is the least comfortable of; the most first.
+/// How many wearers a part of the body, both sides together, is the least comfortable of; the most first.
 std::vector<std::pair<std::string, int>> pressedOf(const PopulationAnswer& a) {
   std::map<std::string, int> count;
-  for (const WearerAnswer& w : a.wearers)
-    if (w.taken() && w.taken()->on() && !w.taken()->presses.empty()) ++count[spokenZone(w.taken()->presses)];
+  for (const WearerAnswer& w : a.wearers) {
+    if (!w.taken() || !w.taken()->on() || w.taken()->presses.empty()) continue;
+    std::string zone = w.taken()->presses;
+    for (const std::string side : {"_left", "_right"})
+      if (zone.ends_with(side)) zone.resize(zone.size() - side.size());
+    ++count[spokenZone(zone)];
+  }
   std::vector<std::pair<std::string, int>> all(count.begin(), count.end());
   std::stable_sort(all.begin(), all.end(), [](const auto& x, const auto& y) { return x.second > y.second; });
   return all;
@@ -154,17 +161,18 @@ std::string plotsOf(const Study& s, const PopulationAnswer& a) {
       [](const Wearer&, const WearerAnswer& w) {
         return w.taken() && w.taken()->worst_part ? 100 * *w.taken()->worst_part : std::nan("");
       });
+  const auto share = [&](int count) { return 100. * count / static_cast<double>(a.wearers.size()); };
   BarChart pressed{
-      "Where it presses", "", "Of how many wearers this part of the body is the least comfortable one.", {}};
-  for (const auto& [zone, count] : pressedOf(a)) pressed.bars.push_back({zone, static_cast<double>(count)});
+      "Where it presses", "%", "Of how many of the wearers this part of the body is the least comfortable one.", {}};
+  for (const auto& [zone, count] : pressedOf(a)) pressed.bars.push_back({zone, share(count)});
   if (!pressed.bars.empty()) out += barChart(pressed);
   if (s.population->sized()) {
-    BarChart sizes{"Which size for how many", "", "Of each wearer the size that goes on and burdens least.", {}};
+    BarChart sizes{"Which size for how many", "%", "Of each wearer the size that goes on and burdens least.", {}};
     const std::vector<int> takers = takersOf(s, a);
     for (std::size_t k = 0; k < takers.size(); ++k)
       if (k + 1 < takers.size() || takers[k] > 0)
-        sizes.bars.push_back({k + 1 < takers.size() ? s.population->input.sizes[k].label : std::string("none"),
-                              static_cast<double>(takers[k])});
+        sizes.bars.push_back(
+            {k + 1 < takers.size() ? s.population->input.sizes[k].label : std::string("none"), share(takers[k])});
     out += barChart(sizes);
   }
   return charts(out);

@@ -45,9 +45,10 @@ Fitting fittingOf(const Study& s, const RunNumbers& r, std::size_t variant) {
     if (j.applies() && j.part() && (!f.worst_part || *j.part() > *f.worst_part))
       f.worst_part = j.part(), f.worst_joint = j.label;
   }
+  // A joint that the garment does not reach is spared whatever the numbers of others stand on.
   for (JointBurden& b : f.burdens)
-    if (b.looked)
-      b.light = shownLight(b.touched ? gambeson::lightOf(b.part, s.limits.green, s.limits.red) : Light::green, trust);
+    if (b.looked && (b.touched || trust.spoiling == 0))
+      b.light = b.touched ? shownLight(gambeson::lightOf(b.part, s.limits.green, s.limits.red), trust) : Light::green;
   if (const ComfortNumbers* k = r.leastComfortable()) {
     f.presses = k->zone;
     f.comfort = shownLight(lightNamed(k->light), trust);
@@ -120,17 +121,13 @@ std::vector<std::size_t> burdenedMost(const PopulationAnswer& a) {
 }
 
 std::string answerSentence(const PopulationAnswer& a) {
-  const auto say = [](const PopulationShare& s) { return fmt::format("{} of {}", s.yes, s.of()); };
   const PopulationShare& on = a.shares[0];
-  std::string text = fmt::format("{} wearers can put it on", say(on));
   std::string green;
-  for (std::size_t k = 1; k < a.shares.size(); ++k) {
-    const PopulationShare& s = a.shares[k];
-    if (!s.what.ends_with("stays green") || s.of() == 0) continue;
-    green += fmt::format("{}{} of {}", green.empty() ? "" : ", ", s.what.substr(0, s.what.find(' ')), say(s));
-  }
-  if (!green.empty()) text += "; the torque stays green at the " + green;
-  return text + ".";
+  for (const PopulationShare& s : a.shares)
+    if (s.what.ends_with("stays green") && s.of() > 0)
+      green += fmt::format("{}{} their {}s", green.empty() ? "" : ", ", s.yes, s.what.substr(0, s.what.find(' ')));
+  return fmt::format("{} of {} wearers can put it on{}.", on.yes, on.of(),
+                     green.empty() ? "" : "; of these keep green: " + green);
 }
 
 }  // namespace
