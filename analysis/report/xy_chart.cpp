@@ -23,6 +23,28 @@ std::string text(double x, double y, const std::string& s, const char* anchor, c
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>", x, y, anchor, style, escape(s));
 }
 
+/// A point; lights differ in shape too, for those who do not tell their colours: circle, half circle, triangle, square
+/// and cross.
+std::string point(PointMark mark, double x, double y) {
+  switch (mark) {
+    case PointMark::open:
+      return fmt::format("<circle class=\"published\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.6\"/>", x, y);
+    case PointMark::green:
+      return fmt::format("<circle class=\"point green\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\"/>", x, y);
+    case PointMark::doubtful:
+      return fmt::format("<path class=\"point doubtful\" d=\"M{:.2f} {:.2f}a4 4 0 0 1 0 8z\"/>"
+                         "<circle class=\"point ring\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\"/>",
+                         x, y - 4, x, y);
+    case PointMark::amber:
+      return fmt::format("<path class=\"point amber\" d=\"M{:.2f} {:.2f}l5 9h-10z\"/>", x, y - 5.5);
+    case PointMark::red:
+      return fmt::format("<path class=\"point red\" d=\"M{:.2f} {:.2f}h8v8h-8z\"/>", x - 4, y - 4);
+    case PointMark::unknown:
+      return fmt::format("<path class=\"point cross\" d=\"M{:.2f} {:.2f}l8 8m0-8l-8 8\"/>", x - 4, y - 4);
+  }
+  return "";
+}
+
 struct Tick {
   double at = 0;  ///< on the axis: the value, or its logarithm
   std::string label;
@@ -73,7 +95,7 @@ std::string legend(const std::vector<XySeries>& series, double& height) {
     const double w = 7.4 * static_cast<double>(s.name.size()) + 42;
     if (x > kLeft && x + w > kWidth) x = kLeft, y += kLegendRow;
     if (s.circles)
-      out += fmt::format("<circle class=\"published\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.6\"/>", x + 10, y - 1);
+      out += point(s.mark, x + 10, y - 1);
     else
       out += fmt::format("<line class=\"series {}\" x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>",
                          kTones[tone++ % kTones.size()], x, x + 20, y - 1, y - 1);
@@ -143,8 +165,7 @@ Drawing draw(const XyPlot& plot) {
       if (!std::isfinite(cx) || !std::isfinite(cy)) {
         pen_down = false;
       } else if (s.circles) {
-        circles += fmt::format("<circle class=\"published\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.6\"/>", ax.pixel(cx),
-                               ay.pixel(cy));
+        circles += point(s.mark, ax.pixel(cx), ay.pixel(cy));
       } else {
         d += fmt::format("{}{:.2f} {:.2f}", pen_down ? "L" : "M", ax.pixel(cx), ay.pixel(cy));
         pen_down = true;
@@ -166,7 +187,9 @@ constexpr const char* kPictureStyle =
     ".series{fill:none;stroke-width:2.2;stroke-linejoin:round}.left{stroke:#1668b0}"
     ".right{stroke:#c04a0f;stroke-dasharray:7 2.5}.third{stroke:#a3246b}.fourth{stroke:#6b4c9a;stroke-dasharray:2 3}"
     ".fifth{stroke:#1b6e3c;stroke-dasharray:9 3 2 3}"
-    ".published{fill:#fff;fill-opacity:.75;stroke:#1b1f27;stroke-width:1.3}";
+    ".published{fill:#fff;fill-opacity:.75;stroke:#1b1f27;stroke-width:1.3}"
+    ".point.green{fill:#1b6e3c}.point.doubtful{fill:#655847}.point.amber{fill:#c98500}.point.red{fill:#a61b1b}"
+    ".ring,.cross{fill:none;stroke-width:1.6}.ring{stroke:#655847}.cross{stroke:#1b1f27}";
 
 }  // namespace
 

@@ -6,10 +6,14 @@
 
 namespace gambeson {
 
+/// What points are drawn as: open circles, or filled signs in the colour of a light.
+enum class PointMark { open, green, doubtful, amber, red, unknown };
+
 struct XySeries {
   std::string name;
   std::vector<double> x, y;  ///< points that are not finite interrupt the line
   bool circles = false;      ///< points instead of a line
+  PointMark mark = PointMark::open;
 };
 
 struct XyPlot {

@@ -348,6 +348,7 @@ Comparison compare(const Study& s, std::vector<RunNumbers> runs) {
   findElasticities(s, c);
   compareMeshes(s, c);
   findBudgets(s, c);
+  if (s.population) c.population = answerOf(s, c.runs);
   c.input = verdictInput(s, c);
   c.verdict = verdictOf(c.input);
   decideFirst(c);

@@ -10,6 +10,7 @@
 #include "analysis/verdict.hpp"
 #include "analysis/viewer/viewer.hpp"
 #include "cases/study/numbers.hpp"
+#include "cases/study/population_answer.hpp"
 #include "cases/study/run.hpp"
 #include "cases/study/uncertainty.hpp"
 
@@ -66,6 +67,7 @@ struct Comparison {
   std::vector<ElasticityRow> elasticities;
   std::vector<MeshRow> meshes;
   std::vector<Budget> budgets;  ///< of references, in the order of the variants
+  std::optional<PopulationAnswer> population;  ///< where wearers are drawn
   VerdictInput input;
   Verdict verdict;
 };

@@ -6,6 +6,7 @@
 
 #include "cases/input/table.hpp"
 #include "cases/runs/picture.hpp"
+#include "cases/study/fields.hpp"
 #include "cases/study/input.hpp"
 #include "human/files/data.hpp"
 
@@ -14,22 +15,6 @@ namespace {
 
 using schema::Entry;
 using schema::Table;
-
-/// A field that is kept as it is written.
-template <class T>
-void rawField(Table<T>& table, const std::string& key, JsonNode T::*member, const std::string& doc,
-              const std::string& note = "none") {
-  schema::Field f;
-  f.key = key;
-  f.kind = schema::Kind::any;
-  f.doc = doc;
-  f.default_note = note;
-  table.custom(
-      f, [member](const Entry& p, T& t) { t.*member = p.node; },
-      [member](const T& t) {
-        return (t.*member).type == JsonNode::Type::null ? std::nullopt : std::optional(t.*member);
-      });
-}
 
 std::vector<std::pair<std::string, std::optional<Role>>> roleChoices() {
   std::vector<std::pair<std::string, std::optional<Role>>> all;
@@ -209,6 +194,10 @@ schema::Object makeStudyTable() {
       "design is named",
       "factors: the level 1; without one, the first level of the first axis that is a design, else of the first of "
       "wearers, sizes or frictions, else of motions");
+  table.object("population", &S::population, populationTable(),
+               "wearers that are drawn: each is a variant, of the case with its manikin replaced; in place of axes, "
+               "variants, elasticities and baseline")
+      .defaultsTo("none");
   table.object("limits", &S::limits, limitsTable(), "traffic light of added torques")
       .defaultsTo("green 5 %, red 15 %: human/data/effort_limits.json")
       .list("pictures", &S::pictures, schema::pictureTable(),

@@ -10,14 +10,15 @@ namespace gambeson::study::files {
 
 inline constexpr std::string_view report = "report.html", numbers = "study.json", variants = "variants.csv",
                                   curves = "curves.csv", exponents = "exponents.csv", elasticities = "elasticities.csv",
-                                  meshes = "meshes.csv", uncertainty = "uncertainty.csv", maps = "maps.csv",
-                                  script = "study.slurm", compare_script = "compare.slurm",
+                                  population = "population.csv", meshes = "meshes.csv", uncertainty = "uncertainty.csv",
+                                  maps = "maps.csv", script = "study.slurm", compare_script = "compare.slurm",
                                   compare_log = "compare.log", submit = "submit.sh";
 /// Folders.
 inline constexpr std::string_view cases = "cases", logs = "logs", pictures = "pictures";
 
-inline constexpr std::array written{report, numbers,     variants, curves, exponents,      elasticities,
-                                    meshes, uncertainty, maps,     script, compare_script, compare_log, submit};
+inline constexpr std::array written{report,    numbers,        variants,    population,  curves,
+                                    exponents, elasticities,   meshes,      uncertainty, maps,
+                                    script,    compare_script, compare_log, submit};
 inline constexpr std::array folders{cases, logs, pictures};
 
 /// What the picture of a variant is called (in the folder of pictures): its wish counts from 0.

@@ -62,6 +62,7 @@ struct StudyInput {
   std::optional<ElasticityInput> elasticities;
   std::optional<UncertaintyInput> uncertainty;
   std::optional<OptimiseInput> optimise;
+  std::optional<PopulationInput> population;
   Limits limits = publishedLimits();
   std::optional<std::vector<PictureCase>> pictures;
 };

@@ -72,6 +72,29 @@ void readZones(const Json& rows, RunNumbers& run) {
   }
 }
 
+/// Crossings in the last window before the motion, which starts at 0, or in the first where nothing is dressed.
+std::optional<int> crossingsDressed(const Json& windows) {
+  int end = -1, crossings = -1, k = 0;
+  for (const Json& column : windows.at("columns").list()) {
+    if (column.text() == "end_s") end = k;
+    if (column.text() == "most_intersections") crossings = k;
+    ++k;
+  }
+  std::optional<int> found;
+  for (const Json& row : windows.at("rows").list()) {
+    int at = 0;
+    double end_s = 0, count = 0;
+    for (const Json& value : row.list()) {
+      if (at == end) end_s = value.number();
+      if (at == crossings) count = value.number();
+      ++at;
+    }
+    if (found && end_s > 1e-9) break;
+    found = static_cast<int>(count);
+  }
+  return end < 0 || crossings < 0 ? std::nullopt : found;
+}
+
 void readCurves(const std::filesystem::path& csv, RunNumbers& run) {
   std::ifstream stream(csv);
   std::string line;
@@ -230,6 +253,7 @@ RunNumbers readRun(const std::filesystem::path& folder) {
       run.stress.push_back({s.at("region").text(), s.at("p50_N_per_m").number(), s.at("p95_N_per_m").number(),
                             s.at("p99_N_per_m").number(), s.at("max_N_per_m").number(),
                             optional(s, "p99_strain").value_or(std::nan("")), s.at("max_strain").number()});
+    if (j.contains("collisions")) run.crossings_dressed = crossingsDressed(j.at("collisions").at("windows"));
     if (j.contains("played")) {
       const std::string played = j.at("played").text();
       run.played = played != "nothing" && played != "the lead-in";

@@ -84,6 +84,8 @@ struct RunNumbers {
   std::vector<Stretch> stretch;  ///< of its fabrics, against what they are meant for
   bool natural() const;          ///< the natural moment of a joint is known
   std::vector<CheckNumbers> checks;
+  /// Places where cloth passes through cloth as it has been put on, before the motion; nothing where that is not known.
+  std::optional<int> crossings_dressed;
 
   double mass_kg() const;
   int failing() const;

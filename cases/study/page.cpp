@@ -315,7 +315,14 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
   const auto pageSection = [&](const char* id, const char* title, const std::string& lead, const std::string& what) {
     if (!what.empty()) body += pageSectionOf(id, title, lead, what);
   };
-  if (!batch) body += headline(s, c, pictures);
+  if (c.population)
+    body += populationHeadline(s, c, pictures);
+  else if (!batch)
+    body += headline(s, c, pictures);
+  if (c.population)
+    pageSection("population", "Whom it fits, whom it burdens",
+                "Wearers are people drawn from a survey; each has a run, and a report, of their own.",
+                populationOf(s, c, pictures));
   pageSection("map", "The thickness map",
               "How thick each region of the garment should be, so that it costs its wearer least.", mapOf(s));
   body += viewerSection(views);
@@ -323,12 +330,13 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
   const std::string shares = anyNatural(c) ? ": in per cent of the joint\u2019s natural moment, in Nm," : " in Nm,";
   pageSection(
       "pay", batch || !joints ? "The runs" : "What each joint pays",
-      joints ? "The largest added torque" + shares +
+      !joints ? ""
+      : c.population ? "The largest added torque" + shares + " of each wearer."
+             : "The largest added torque" + shares +
                    " and as a part of that of the baseline, the variant that the others are compared with, in the same "
-                   "motion."
-             : "",
+                   "motion.",
       payOf(s, c));
-  if (!batch) {
+  if (!batch && !c.population) {
     pageSection("curves", "Added torque over time", "Each variant has one colour throughout.", curvesOf(s, c));
     pageSection("laws", "How the torque changes with what varies", "", lawsOf(s, c));
     pageSection("elasticities", "What the torque is made of", "", elasticitiesOf(c));
@@ -343,7 +351,7 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
   pageSection("measured", "Against measured garments", "Where garment and motion correspond.", measuredOf(s, c));
   pageSection("garments", "The garments", "", kindsOf(s, c) + thicknessPage(s, c));
   pageSection("cloth", "How it sits", "", clothOf(s, c));
-  if (!pictures.empty())
+  if (!pictures.empty() && !c.population)
     pageSection(
         "pictures", "Side by side",
         "Of each motion all variants at the same time. The same colour means the same value, and arrows of the same "
@@ -352,7 +360,7 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
         pairs(s, pictures));
   pageSection("checks", "Checks", "Every run checks itself, step by step.", checksOf(s, c));
   pageSection("assumptions", "What was left out and assumed", "", leftOutOf(s, c));
-  return pageOf(s.name, s.description, batch ? s.name : c.verdict.sentence, body, !views.empty());
+  return pageOf(s.name, s.description, batch ? s.name : c.population ? c.population->sentence : c.verdict.sentence, body, !views.empty());
 }
 
 }  // namespace gambeson::study

@@ -44,6 +44,9 @@ bool anyNatural(const Comparison& c);
 /// What "thickness x 0.5" means; empty where no axis is one of factors.
 std::string multiplesOf(const Study& study);
 
+// page_population.cpp
+std::string populationHeadline(const Study& study, const Comparison& c, const std::vector<SidePicture>& pictures);
+std::string populationOf(const Study& study, const Comparison& c, const std::vector<SidePicture>& pictures);
 // page_pay.cpp
 std::string payOf(const Study& study, const Comparison& c);
 // page_torque.cpp

@@ -17,10 +17,13 @@
 namespace gambeson::study {
 namespace {
 
-/// The time that a wish means in a group: the peak is that of its baseline, or of its first good run.
-double timeOf(const VariantGroup& g, const Comparison& c, const PictureCase& wish) {
+/// The time that a wish means in a group: the peak is that of its baseline, or of its first good run; of a population
+/// each run's own.
+double timeOf(const VariantGroup& g, std::size_t own, const Comparison& c, const PictureCase& wish) {
   if (wish.when == PictureTime::at) return wish.time_s;
-  const RunNumbers* run = g.baseline >= 0 ? &c.runs[static_cast<std::size_t>(g.baseline)] : nullptr;
+  const RunNumbers* run = c.population      ? &c.runs[own]
+                          : g.baseline >= 0 ? &c.runs[static_cast<std::size_t>(g.baseline)]
+                                            : nullptr;
   for (std::size_t k = 0; k < g.members.size() && (!run || !run->good); ++k) run = &c.runs[g.members[k]];
   if (!run || !run->good) return 0;
   const JointNumbers* top = run->highest();
@@ -33,11 +36,19 @@ struct Drawn {
   std::size_t run;
 };
 
+/// Of a population those whom it burdens most alone.
+bool isShown(const Comparison& c, std::size_t run) {
+  if (!c.population) return true;
+  return std::any_of(c.population->worst.begin(), c.population->worst.end(),
+                     [&](std::size_t w) { return c.population->wearers[w].taken()->variant == run; });
+}
+
 std::vector<Drawn> drawnOf(const Study& s, const Comparison& c) {
   std::vector<Drawn> drawn;
   for (const VariantGroup& g : c.groups)
     for (const std::size_t i : g.members)
-      if (c.runs[i].good && std::holds_alternative<Case>(s.variants[i].definition)) drawn.push_back({g, i});
+      if (c.runs[i].good && isShown(c, i) && std::holds_alternative<Case>(s.variants[i].definition))
+        drawn.push_back({g, i});
   return drawn;
 }
 
@@ -69,7 +80,7 @@ std::vector<SidePicture> takeSidePictures(const Study& s, const Comparison& c, c
   const std::vector<Drawn> drawn = drawnOf(s, c);
   const auto wishOf = [&](const Drawn& d, std::size_t w) {
     PictureCase wish = s.pictures[w];
-    wish.time_s = timeOf(d.group, c, wish);
+    wish.time_s = timeOf(d.group, d.run, c, wish);
     wish.when = PictureTime::at;
     return wish;
   };

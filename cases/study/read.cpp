@@ -13,7 +13,9 @@
 #include "cases/study/files.hpp"
 #include "cases/study/input.hpp"
 #include "cases/study/make_variant.hpp"
+#include "cases/study/maker.hpp"
 #include "cases/study/read_parts.hpp"
+#include "cases/study/read_population.hpp"
 #include "cases/study/uncertainty_runs.hpp"
 #include "core/error.hpp"
 
@@ -21,59 +23,6 @@ namespace gambeson::study {
 namespace {
 
 using schema::Entry;
-
-constexpr std::size_t most_variants = 2000;
-
-[[noreturn]] void tooMany(const Entry& at) { at.fail("more than 2,000 variants; allowed: at most 2,000 together"); }
-
-// --- From the axes to variants ----------------------------------------------------------------------------------
-
-/// Builds and checks variants one by one.
-class Maker {
- public:
-  Maker(const Entry& entry, const StudyInput& in, Study& study) : entry_(entry), in_(in), study_(study) {
-    base_ = readJson(in.file);
-    if (in.set.type != JsonNode::Type::null) common_ = settingsOf(entry.member(*entry.node.find("set")));
-  }
-
-  void add(std::vector<int> levels, const std::vector<Setting>& more, const std::string& extra_label, const Entry& at) {
-    Variant v;
-    v.levels = std::move(levels);
-    v.grid = more.empty();
-    JsonNode root = base_;
-    std::vector<Setting> all = common_;
-    for (std::size_t a = 0; a < study_.axes.size(); ++a) {
-      const Axis& axis = study_.axes[a];
-      const Level& level = axis.levels[static_cast<std::size_t>(v.levels[a])];
-      all.insert(all.end(), level.set.begin(), level.set.end());
-      v.folder += (v.folder.empty() ? "" : "__") + level.folder;
-      v.label += (v.label.empty() ? "" : ", ") + level.name;
-    }
-    all.insert(all.end(), more.begin(), more.end());
-    if (!extra_label.empty()) {
-      v.folder += (v.folder.empty() ? "" : "__") + folderName(extra_label);
-      v.label += (v.label.empty() ? "" : ", ") + extra_label;
-    }
-    if (const std::string why = files::unfitFolder(v.folder); !why.empty()) at.fail(fmt::format("a variant {}", why));
-    if (!folders_.insert(v.folder).second)
-      at.fail(fmt::format("there are two variants {}; allowed: labels that differ", v.label));
-    if (study_.variants.size() >= most_variants) tooMany(at);
-    defineVariant(study_, root, in_.file, all, v);
-    study_.variants.push_back(std::move(v));
-    root_ = std::move(root);
-  }
-
-  /// The file of the case of the variant that was added last, with its values in.
-  const JsonNode& root() const { return root_; }
-
- private:
-  const Entry& entry_;
-  const StudyInput& in_;
-  Study& study_;
-  JsonNode base_, root_;
-  std::vector<Setting> common_;
-  std::set<std::string> folders_;
-};
 
 /// All combinations of levels of the axes, the last axis fastest, each for `runs` variants. Counted first: they may be
 /// too many to be built.
@@ -223,8 +172,9 @@ Study readStudy(const std::filesystem::path& file) {
     readOptimise(entry, in, s);
     return s;
   }
-  if (in.axes.empty() && in.variants.empty() && !in.uncertainty)
-    entry.fail("one of axes, variants, optimise or uncertainty is required, and not empty");
+  if (in.axes.empty() && in.variants.empty() && !in.uncertainty && !in.population)
+    entry.fail("one of axes, variants, optimise, uncertainty or population is required, and not empty");
+  if (in.population) addPopulation(entry, in, s);
   for (std::size_t a = 0; a < in.axes.size(); ++a) {
     const Entry at = entry.member(*root.find("axes")).item(a);
     Axis axis = axisOf(at, in.axes[a]);
@@ -233,9 +183,11 @@ Study readStudy(const std::filesystem::path& file) {
         at.failAt("name", fmt::format("\"{}\" names two axes; allowed: a name of its own", axis.name));
     s.axes.push_back(std::move(axis));
   }
-  findBaseline(entry, in, s);
+  if (!s.population) findBaseline(entry, in, s);
   Maker maker(entry, in, s);
-  if (!s.axes.empty()) {
+  if (s.population) {
+    addWearers(entry, maker, s);
+  } else if (!s.axes.empty()) {
     const Entry axes = entry.member(*root.find("axes"));
     for (const auto& levels : combinations(allLevels(s), 1, axes)) maker.add(levels, {}, "", axes);
   }
@@ -257,7 +209,7 @@ Study readStudy(const std::filesystem::path& file) {
                            : std::vector<Setting>{};
     addUncertainty(entry, *in.uncertainty, first, maker, s);
   }
-  linkBaselines(s);
+  if (!s.population) linkBaselines(s);
   return s;
 }
 

@@ -119,7 +119,7 @@ void readRepeats(const Entry& entry, const OptimiseInput& in, const TimeCase& ti
 void readOptimise(const Entry& root, const StudyInput& in, Study& s) {
   const OptimiseInput& from = *in.optimise;
   const Entry entry = root.member(*root.node.find("optimise"));
-  for (const char* key : {"axes", "variants", "elasticities", "baseline"})
+  for (const char* key : {"axes", "variants", "elasticities", "uncertainty", "population", "baseline"})
     if (root.node.find(key))
       root.failAt(key, "excludes optimise, which finds its variants itself; allowed: one of both");
   Optimise& o = s.optimise.emplace();

@@ -12,6 +12,7 @@
 #include "cases/input/schema.hpp"
 #include "cases/kinds/any_case.hpp"
 #include "cases/study/optimise.hpp"
+#include "cases/study/population.hpp"
 
 namespace gambeson::study {
 
@@ -83,6 +84,8 @@ struct Study {
   Limits limits;
   std::vector<PictureCase> pictures;
   std::optional<Uncertainty> uncertainty;
+  /// Where wearers are drawn: the first axis is theirs, a second one that of the sizes, where there are some.
+  std::optional<Population> population;
 };
 
 /// Reads and checks a study and all its variants. Throws InputError: file, line, key, what is allowed; of a variant

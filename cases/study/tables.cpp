@@ -8,6 +8,7 @@
 
 #include "cases/study/compare.hpp"
 #include "cases/study/files.hpp"
+#include "cases/study/population_answer.hpp"
 #include "cases/study/table_rows.hpp"
 #include "core/io/own_file.hpp"
 
@@ -355,6 +356,7 @@ std::string studyJson(const Study& s, const Comparison& c) {
                            {"history_difference_of_peak", number(m.course)},
                            {"error_bar_of_peak", number(m.bar)}});
   if (s.uncertainty) j["uncertainty"] = uncertaintyJson(s, c);
+  if (c.population) j["population"] = populationJson(s, *c.population);
   j["variants"] = StudyJson::array();
   for (std::size_t i = 0; i < s.variants.size(); ++i) j["variants"].push_back(variantJson(s, c, i));
   return j.dump(2) + "\n";
@@ -370,6 +372,9 @@ void writeStudyTables(const Study& s, const Comparison& c, const std::filesystem
   writeOwnFile(out / files::meshes, meshesTable(c));
   writeOwnFile(out / files::uncertainty, uncertaintyTable(s, c));
   if (s.optimise) writeOwnFile(out / files::maps, mapsTable(*s.optimise));
+  // Of an earlier study in this folder.
+  if (!c.population && isOwnFile(out / files::population)) removeOwnFile(out / files::population);
+  if (c.population) writeOwnFile(out / files::population, populationCsv(s, *c.population));
   writeOwnFile(out / files::numbers, studyJson(s, c));
 }
 

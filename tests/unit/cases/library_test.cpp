@@ -42,12 +42,13 @@ TEST(Library, StudiesAreValid) {
     if (!name.ends_with(".study.json")) continue;
     ASSERT_NO_THROW(variants[name] = study::readStudy(entry.path()).variants.size()) << name;
   }
-  EXPECT_EQ(variants.size(), 8u);
+  EXPECT_EQ(variants.size(), 9u);
   EXPECT_EQ(variants["sleeve.study.json"], 2u * 4u * 2u + 1u);  // cloths, meshes, frictions; exact inertia
   EXPECT_EQ(variants["sleeve_fit.study.json"], 4u * 2u * 2u);   // sleeves, cloths, meshes
   EXPECT_EQ(variants["sleeve_material.study.json"], 4u * 2u);   // materials, meshes
   EXPECT_EQ(variants["sleeve_starts.study.json"], 8u * 5u);     // sleeves, starts
   EXPECT_EQ(variants["models.study.json"], 4u);
+  EXPECT_EQ(variants["shorts_population.study.json"], 24u);  // wearers
 }
 
 }  // namespace
