@@ -201,7 +201,7 @@ Study readStudy(const std::filesystem::path& file) {
     maker.add(levels, settingsOf(at.member(*at.node.find("set"))), in.variants[i].label, at);
     s.variants.back().finer = in.variants[i].finer;
   }
-  if (s.variants.empty()) maker.add({}, {}, "as it is", entry);
+  if (s.variants.empty()) maker.add({}, {}, "the case", entry);
   if (in.elasticities) addElasticities(entry, *in.elasticities, maker, s);
   if (in.uncertainty) {
     const auto first = s.axes.empty() && !in.variants.empty()

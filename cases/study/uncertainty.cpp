@@ -196,8 +196,12 @@ std::vector<std::string> adviceOf(const Study& s, const BarredNumber& n) {
   const BarPart most = n.bar.largest();
   const double part = *n.bar.of(most);
   const char* const causes[]{"", "the mesh", "the step", "the fabric\u2019s spread"};
-  all.push_back(fmt::format("{} of the square of {} is {}.", shareText(n.bar.share(most)), say(*whole),
-                            causes[static_cast<int>(most)]));
+  const double share = n.bar.share(most);
+  all.push_back(fmt::format("{} of {} comes from {} ({} of the sum of squares).",
+                            share > 0.9   ? "Nearly all"
+                            : share > 0.5 ? "Most"
+                                          : "The largest part",
+                            say(*whole), causes[static_cast<int>(most)], shareText(share)));
   if (most == BarPart::mesh)
     all.push_back(
         fmt::format("First compute with finer cells: half of their size would leave {}.", say(barWith(n, part, 4))));

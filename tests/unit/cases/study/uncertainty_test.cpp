@@ -99,7 +99,7 @@ TEST(Uncertainty, BarsAreThoseOfTheClosedForm) {
   // What dominates is said, and what to measure: bending, 62 of 74 of the fabric's.
   const std::vector<std::string> advice = adviceOf(s, n);
   ASSERT_EQ(advice.size(), 3u);
-  EXPECT_NE(advice[0].find("is the mesh"), std::string::npos) << advice[0];
+  EXPECT_NE(advice[0].find("the mesh"), std::string::npos) << advice[0];
   EXPECT_NE(advice[1].find("finer cells"), std::string::npos) << advice[1];
   EXPECT_NE(advice[2].find("measure the bending rigidity better"), std::string::npos) << advice[2];
 }
@@ -149,7 +149,6 @@ TEST(Uncertainty, AShortWindowOfHalfStepsSaysSo) {
 TEST(Uncertainty, OfOneCase) {
   const Study s = read(R"({"name": "one", "case": "cloth.json", "uncertainty": {"spread": {"bending": "10 %"}}})");
   ASSERT_EQ(s.variants.size(), 1u + 14);
-  EXPECT_EQ(s.variants[0].folder, "as_it_is");
   EXPECT_EQ(s.uncertainty->unknown, (std::vector<std::string>{"thickness", "moduli", "friction"}));
   const Comparison c = compare(s, numbersOf(s));
   ASSERT_EQ(c.budgets.size(), 1u);
