@@ -287,7 +287,7 @@ std::string populationHeadline(const Study& s, const Comparison& c, const std::v
                                  ? percentBeside(*f.worst_part, s.limits.green, s.limits.red) + ", " + f.worst_joint
                                  : "no natural moment known";
     burdened += (burdened.empty() ? "" : "<br>") + linkTo(s.variants[f.variant], s.population->wearers[w].name) +
-                element("span", prose(": " + cost), " class=\"reason\"");
+                element("span", prose(" " + cost), " class=\"reason\"");
   }
   if (!burdened.empty()) list += answerItem("Burdens most", burdened);
   std::string words =

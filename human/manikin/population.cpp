@@ -56,6 +56,7 @@ DrawnPeople drawPeople(Sex sex, int count, std::uint64_t seed) {
   const double r = std::log1p(p.correlation * cv_s * cv_m) / (s_s * s_m);
   const double m_s = std::log(p.stature_m) - 0.5 * s_s * s_s, m_m = std::log(p.mass_kg) - 0.5 * s_m * s_m;
   Normals normals(sex, seed);
+  Regressions of = regressionsFor(sex, 0, 0);
   DrawnPeople drawn;
   while (static_cast<int>(drawn.people.size()) < count) {
     const auto [z1, z2, chest, waist, hip, inseam] = normals.next();
@@ -63,7 +64,8 @@ DrawnPeople drawPeople(Sex sex, int count, std::uint64_t seed) {
     m.sex = sex;
     m.stature_m = rounded(std::exp(m_s + s_s * z1), 1000);
     m.mass_kg = rounded(std::exp(m_m + s_m * (r * z1 + std::sqrt(1 - r * r) * z2)), 10);
-    const Regressions of = regressionsFor(sex, m.stature_m, m.mass_kg);
+    of.stature_mm = 1000 * m.stature_m;
+    of.mass_kg = m.mass_kg;
     const auto measure = [&](const char* name, double z) { return rounded(of.m(name) + z * of.error_m(name), 1000); };
     m.chest_m = measure("chestcircumference", chest);
     m.waist_m = measure("waistcircumference", waist);
