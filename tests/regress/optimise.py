@@ -101,7 +101,7 @@ def small(folder):
 
 def refused(folder):
     file = tiny(folder)
-    for key, value, said in (("keep", ["hem"], 'optimise.keep[0]: there is no region "hem"; allowed: trunk, outer, inner'),
+    for key, value, said in (("keep", ["hem"], 'optimise.keep[0]: there is no region "hem"; allowed: trunk, outer or inner'),
                              ("keep", ["trunk", "outer"], "1 region of the garment is free"),
                              ("limit", 3, "optimise.limit"), ("between", [1.2, 1.5], "leaves out the case's own factor"),
                              ("joints", ["knee_left"], "the case does not analyse"), ("runs", 1, "optimise.runs"),
