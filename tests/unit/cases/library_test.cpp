@@ -42,7 +42,7 @@ TEST(Library, StudiesAreValid) {
     if (!name.ends_with(".study.json")) continue;
     ASSERT_NO_THROW(variants[name] = study::readStudy(entry.path()).variants.size()) << name;
   }
-  EXPECT_EQ(variants.size(), 9u);
+  EXPECT_EQ(variants.size(), 11u);
   EXPECT_EQ(variants["sleeve.study.json"], 2u * 4u * 2u + 1u);  // cloths, meshes, frictions; exact inertia
   EXPECT_EQ(variants["sleeve_fit.study.json"], 4u * 2u * 2u);   // sleeves, cloths, meshes
   EXPECT_EQ(variants["sleeve_material.study.json"], 4u * 2u);   // materials, meshes

@@ -98,7 +98,7 @@ const Keys carried{
     {"Held patch", "garment patch release"},
     {"Contact", "layer friction friction_cloth self relaxation compliance tolerance max_iterations"},
     {"Air", "drag velocity"},
-    {"Factors", "thickness bending membrane weight inertia drag"},
+    {"Factors", "thickness bending membrane weight inertia drag friction"},
     {"Dressing", "projecting layer_by_layer from history settle"},
     {"Projecting", "clearance grow"},
     {"Time", "duration step_safety max_step step"},
