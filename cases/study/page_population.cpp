@@ -109,12 +109,16 @@ std::string burdenPlot(const Study& s, const PopulationAnswer& a) {
   return xyChart(plot);
 }
 
-/// The worse of what its joints and its pressure say.
+/// The worst of what its joints say; green where all that the garment reaches are known to be.
 PointMark markOf(const WearerAnswer& w) {
   if (!w.taken() || !w.taken()->on()) return PointMark::unknown;
   Light worst = Light::green;
-  for (const JointBurden& b : w.taken()->burdens)
+  bool unknown = false;
+  for (const JointBurden& b : w.taken()->burdens) {
+    unknown = unknown || (b.looked && b.touched && b.light == Light::unknown);
     if (b.looked && b.light != Light::unknown) worst = std::max(worst, b.light);
+  }
+  if (unknown && worst == Light::green) return PointMark::unknown;
   return worst == Light::red        ? PointMark::red
          : worst == Light::amber    ? PointMark::amber
          : worst == Light::doubtful ? PointMark::doubtful
@@ -128,7 +132,7 @@ std::string bodiesPlot(const Study& s, const PopulationAnswer& a, XyPlot plot, X
                                                   {PointMark::doubtful, "green, but doubtful"},
                                                   {PointMark::amber, "a joint amber"},
                                                   {PointMark::red, "a joint red"},
-                                                  {PointMark::unknown, "cannot put it on"}};
+                                                  {PointMark::unknown, "not known, or cannot put it on"}};
   for (const auto& [mark, name] : marks) {
     XySeries points{name, {}, {}, true, mark};
     for (std::size_t w = 0; w < a.wearers.size(); ++w)
