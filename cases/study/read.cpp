@@ -14,7 +14,7 @@
 #include "cases/study/input.hpp"
 #include "cases/study/make_variant.hpp"
 #include "cases/study/maker.hpp"
-#include "cases/study/read_parts.hpp"
+#include "cases/study/read_optimise.hpp"
 #include "cases/study/read_population.hpp"
 #include "cases/study/uncertainty_runs.hpp"
 #include "core/error.hpp"

@@ -1,4 +1,4 @@
-/// Detail of read_parts.hpp: what a study optimises.
+#include "cases/study/read_optimise.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,6 @@
 #include "cases/study/axes.hpp"
 #include "cases/study/make_variant.hpp"
 #include "cases/study/map_runs.hpp"
-#include "cases/study/read_parts.hpp"
 
 namespace gambeson::study {
 namespace {

@@ -4,8 +4,8 @@
 /// What turns at a seam of stiffness k per length and angle is the seam and the cloth on either side of it, in a row:
 ///   E = 1/2 k' l (theta - alpha_a - alpha_b - rest angle)^2,   1/k' = 1/k + c_a + c_b,
 /// theta the angle between the two triangles (hingeAngle) and l the mean length of the edge. Of triangles that bend by
-/// a tensor with edges that turn (BendingElements::midedge) alpha is what their own edge turns, an unknown, and c =
-/// h/(10 D) no more than what keeps steps long: a stiff seam bends as cloth does that is longer by a fifth of a cell.
+/// a tensor with edges that turn (BendingElements::midedge) alpha is what their own edge turns, an unknown; c =
+/// h/(10 D) only keeps steps long, and a stiff seam bends as cloth does that is longer by a fifth of a cell.
 /// Of others alpha = 0 and c = h/(2 D), half a height of cloth: with k without bound that is the hinge of
 /// TriangleCloth, whose energy on flat cloth is the same. h is the height of the triangle over the edge and D the
 /// rigidity of its fabric for a curvature across it, both at rest. With k = 0 the seam is free. Valid in so far as the

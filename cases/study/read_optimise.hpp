@@ -1,5 +1,5 @@
 #pragma once
-/// Detail of study.hpp: parts of reading a study's file.
+/// Detail of study.hpp: what a study optimises, as its file has it.
 
 #include "cases/input/schema.hpp"
 #include "cases/study/input.hpp"
