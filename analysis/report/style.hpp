@@ -78,18 +78,25 @@ ul.assumptions { margin:10px 0 0; padding-left:22px; columns:2 420px; column-gap
 footer { color:var(--soft); font-size:.9rem; padding:36px 0 48px; }
 @media (min-width:900px) { .headline.pictured { grid-template-columns:minmax(0,1fr) minmax(0,1fr); } .headline.pictured figure { display:flex; flex-direction:column; justify-content:center; background:#f9fafa; border-left:1px solid var(--line); border-bottom:1px solid var(--line); } .headline > .meaning { border-top:0; padding-top:0; margin-top:0; } .headline > .meaning + .meaning { margin-top:-18px; } }
 @media (max-width:560px) { main, header.page { padding-left:12px; padding-right:12px; } .headline .words { padding:18px 16px; } .headline .sentence { font-size:1.25rem; } dl.answers { grid-template-columns:minmax(0,1fr); gap:0; } dl.answers dd { margin-bottom:8px; } figure.chart, .panel { padding:12px 10px; } }
-@media print { @page { margin:12mm; } html { font-size:11px; } body { background:#fff; font-size:1rem; } h2 + p { break-inside:avoid; break-after:avoid; } dl.answers { grid-template-columns:minmax(0,.7fr) minmax(0,1fr); } .cards { gap:8px; } main, header.page { max-width:none; padding-left:0; padding-right:0; } header.page { padding-top:0; } h2 { break-after:avoid; margin-top:16px; }
-  figure, .card, .panel, .headline, tr { break-inside:avoid; } .headline.pictured { grid-template-columns:1fr 1fr; } .headline img { max-height:85mm; } .cards { grid-template-columns:repeat(4,1fr); } .card { padding:6px 8px; } .charts, .pictures { grid-template-columns:1fr 1fr; gap:8px; margin-top:8px; } .wide { margin-top:8px; } figure.chart, .panel { padding:8px 10px; } .pictures img { max-height:75mm; object-fit:contain; } .pictures figcaption { padding:4px 10px 8px; }
-  .panel:has(tbody tr:nth-child(9)) { break-inside:auto; } thead { display:table-header-group; }
-  th, td { padding-top:2px; padding-bottom:2px; } .panel.more::before { display:none; } .scroll { overflow:visible; background:none; } .panel.more th:first-child { position:static; border-right:0; }
-  .panel:has(thead th:nth-child(9)) table { font-size:.8rem; } .panel:has(thead th:nth-child(9)) :is(th, td) { padding-right:6px; } footer { padding:12px 0 0; }
-  .headline .words { padding:14px 16px; } .headline .sentence { font-size:1.3rem; margin-bottom:10px; } dl.answers { gap:3px 12px; } .meaning { margin-top:10px; padding-top:8px; } * { print-color-adjust:exact; -webkit-print-color-adjust:exact; } }
+@media print { @page { margin:11mm 12mm; } html { font-size:10px; } body { background:#fff; font-size:1rem; line-height:1.4; } main, header.page { max-width:none; padding-left:0; padding-right:0; } header.page, header.page + main { padding-top:0; }
+  h2 { break-after:avoid; margin-top:12px; } h2 + p { break-inside:avoid; break-after:avoid; } h3 { margin-bottom:2px; } figure, .card, .panel, .headline, tr { break-inside:avoid; }
+  .headline.pictured { grid-template-columns:1fr 1fr; } .headline img { max-height:80mm; } .headline .words { padding:14px 16px; } .headline .sentence { font-size:1.3rem; margin-bottom:10px; } dl.answers { grid-template-columns:minmax(0,.7fr) minmax(0,1fr); gap:3px 12px; } .meaning { margin-top:10px; padding-top:8px; }
+  .cards { grid-template-columns:repeat(4,1fr); gap:8px; } .cards:has(> :nth-child(5)) { grid-template-columns:repeat(3,1fr); } .card { padding:6px 8px; } .wide { margin-top:8px; }
+  .charts, .pictures { grid-template-columns:1fr 1fr; gap:8px; margin-top:8px; } .charts { align-items:stretch; } .charts:has(> :nth-child(3)), .pictures { grid-template-columns:repeat(3,minmax(0,1fr)); } .pictures:has(> :nth-child(4)) { grid-template-columns:repeat(4,minmax(0,1fr)); }
+  .charts > .panel:has(thead th:nth-child(5)), .charts > .panel:has(.sentences) { grid-column:1 / -1; } figure.chart, .panel { padding:5px 7px; } figure.chart figcaption, .panel .caption { font-size:.82rem; line-height:1.3; margin-top:3px; }
+  .pictures img { max-height:62mm; object-fit:contain; } .pictures figcaption { padding:2px 6px 4px; font-size:.85rem; }
+  .panel:has(tbody tr:nth-child(9)) { break-inside:auto; } thead { display:table-header-group; } caption, thead, tbody tr:first-child { break-after:avoid; } tbody tr:last-child { break-before:avoid; } table { font-size:.86rem; } thead th { font-size:.82rem; } th, td { padding:1px 8px 1px 0; } .panel.more::before { display:none; } .scroll { overflow:visible; background:none; } .panel.more th:first-child { position:static; border-right:0; }
+  .panel:has(thead th:nth-child(9)) table { font-size:.8rem; } .panel:has(thead th:nth-child(9)) :is(th, td) { padding-right:6px; }
+  ul.assumptions, details.facts ul { columns:2 auto; column-gap:20px; font-size:.88rem; } ul.assumptions li { margin-bottom:2px; } details { margin-top:8px; } footer { padding:12px 0 0; } * { print-color-adjust:exact; -webkit-print-color-adjust:exact; } }
 )css";
 
 /// A sign where a table is wider than its place; values under the pointer, read back from the drawn paths.
 inline constexpr const char* kScript = R"js(
 const fit = () => document.querySelectorAll('.scroll').forEach(s => s.parentNode.classList.toggle('more', s.scrollWidth > s.clientWidth + 1));
 fit(); addEventListener('resize', fit); addEventListener('toggle', fit, true);
+// Paper has no folds.
+addEventListener('beforeprint', () => document.querySelectorAll('details:not([open])').forEach(d => { d.open = true; d.dataset.folded = ''; }));
+addEventListener('afterprint', () => document.querySelectorAll('details[data-folded]').forEach(d => { d.open = false; delete d.dataset.folded; }));
 document.querySelectorAll('svg[data-frame]').forEach(svg => {
   const [x0, x1, y0, y1, t0, t1, v0, v1] = svg.dataset.frame.split(' ').map(Number);
   const make = (name, cls) => { const e = document.createElementNS(svg.namespaceURI, name); e.setAttribute('class', cls); svg.appendChild(e); return e; };

@@ -30,18 +30,21 @@ const setNormals = (x, corners, n) => {
 };
 
 /// Fewer triangles over the same vertices: those that edges connect within a cube of this side are taken as one of them, so that nothing
-/// grows together that only lies side by side.
-const fewerCorners = (x, corners, cube_m) => {
-  const n = x.length / 3, of = new Int32Array(n), cube = new Array(n);
+/// grows together that only lies side by side. Borders stay, and what is bent sharply: hands and hems. `normals`: of the vertices.
+const fewerCorners = (x, normals, corners, cube_m) => {
+  const n = x.length / 3, of = new Int32Array(n), cube = new Array(n), alike = 0.8;
   for (let v = 0; v < n; ++v) {
     of[v] = v;
     cube[v] = [0, 1, 2].map(c => Math.floor(x[3 * v + c] / cube_m)).join();
   }
+  for (const v of bordersOf(corners, n)) cube[v] = v;
+  const bent = (a, b) => normals[3 * a] * normals[3 * b] + normals[3 * a + 1] * normals[3 * b + 1] + normals[3 * a + 2] * normals[3 * b + 2] < alike;
   const find = v => { while (of[v] !== v) v = of[v] = of[of[v]]; return v; };
   for (let i = 0; i < corners.length; ++i) {
     const a = corners[i], b = corners[i % 3 === 2 ? i - 2 : i + 1];
     if (cube[a] !== cube[b]) continue;
     const p = find(a), q = find(b);
+    if (bent(p, q)) continue;
     of[Math.max(p, q)] = Math.min(p, q);
   }
   const out = [];

@@ -15,15 +15,10 @@ pageRead.first = new Promise(done => { window.gambesonFirst = done; pageRead.all
 const startViewer = async () => {
   const root = document.getElementById('viewer');
   if (!root) return null;
-  // While the browser makes its context the library is inflated.
-  const library = typeof DecompressionStream === 'undefined' ? null : inflated(document.getElementById('viewer-library').textContent);
-  const canvas = document.createElement('canvas');
-  const context = canvas.getContext('webgl', { antialias: false, alpha: true, premultipliedAlpha: true });
-  if (!context)
-    return withoutViewer(root, 'To look around in three dimensions takes WebGL, which this browser does not offer.');
-  if (!library)
+  if (typeof DecompressionStream === 'undefined')
     return withoutViewer(root, 'To look around in three dimensions takes a browser of 2023 or later.');
-  document.head.append(element('script', {}, new TextDecoder().decode(await library)));
+  const library = await inflated(document.getElementById('viewer-library').textContent);
+  document.head.append(element('script', {}, new TextDecoder().decode(library)));
 
   const colors = JSON.parse(document.getElementById('viewer-colors').textContent);
   await pageRead.first;
@@ -36,7 +31,7 @@ const startViewer = async () => {
   // Runs beside each other are shown at one moment, and each has the start of its own.
   if (runs.length > 1) await loadRest();
   root.closest('section').hidden = false;
-  const viewer = new Viewer(root, canvas, context, runs, colors), start = runs[0].head.start;
+  const viewer = new Viewer(root, runs, colors), start = runs[0].head.start;
   const named = start.field && runs[0].fieldHead(start.field) ? start.field : (runs[0].head.fields[0] || { name: '' }).name;
   viewer.time = start.time_s;
   viewer.setTime(start.time_s);
@@ -44,6 +39,9 @@ const startViewer = async () => {
   viewer.label();
   viewer.setView(start.view);
   if (named) await viewer.setField(named); else viewer.offerRange();
+  // Last: a browser that was just started is not ready to draw before, and whoever asks waits for it.
+  if (!viewer.stage.begin())
+    return withoutViewer(root, 'To look around in three dimensions takes WebGL, which this browser does not offer.');
   viewer.stage.drawNow();
   viewer.firstPicture_ms = performance.now();
   if (runs.length === 1) await loadRest();

@@ -4,9 +4,9 @@ const kShownViews = [['front', 'Front'], ['back', 'Back'], ['left', 'Left'], ['r
 const capital = text => text.charAt(0).toUpperCase() + text.slice(1);
 
 class Viewer {
-  /// `canvas` with its `context`; `run`s and the colours of all fields.
-  constructor(root, canvas, context, runs, colors) {
-    this.canvas = canvas;
+  /// `run`s and the colours of all fields.
+  constructor(root, runs, colors) {
+    this.canvas = element('canvas');
     this.root = root;
     this.runs = runs;
     this.state = { playing: false, speed: 1, field: null, forces: true, hidden: new Set() };
@@ -14,7 +14,7 @@ class Viewer {
     this.clock = longest.times;
     this.time = this.clock[0];
     this.build(colors);
-    this.stage = new Stage(canvas, context, runs, colors);
+    this.stage = new Stage(this.canvas, runs, colors);
     this.listen();
     this.setReady(false);
   }
@@ -171,7 +171,10 @@ class Viewer {
     const most_N = Math.max(...this.runs.map(run => run.arrows ? run.arrows.most_N : 0));
     const longest_m = Math.max(...this.runs.map(run => run.arrows ? run.arrows.longest_m : 0));
     const m_per_N = most_N > 0 ? longest_m / most_N : 0;
-    for (const actor of this.stage.actors) actor.show(this.time, this.fieldOf(actor.run), m_per_N, this.state.forces);
+    for (const actor of this.stage.actors) {
+      actor.move(this.stage.playing, this.stage.slow);
+      actor.show(this.time, this.fieldOf(actor.run), m_per_N, this.state.forces);
+    }
     const k = this.clockFrame();
     this.slider.value = k;
     this.slider.setAttribute('aria-valuetext', `${this.time.toFixed(2)} s`);

@@ -18,12 +18,20 @@ class Plots {
         const near = peak && Math.abs(Number(peak.getAttribute('cx')) - x) * scale < 14;
         go(near ? Number(peak.dataset.time) : t0 + (Math.max(x0, Math.min(x1, x)) - x0) / (x1 - x0) * (t1 - t0), svg);
       });
-      return { line, x0, x1, t0, t1 };
+      return { svg, line, x0, x1, t0, t1, seen: true };
     });
+    // Those out of sight stay as they are: browsers paint well past the screen.
+    this.observer = new IntersectionObserver(entries => {
+      for (const e of entries) this.plots.find(p => p.svg === e.target).seen = e.isIntersecting;
+      if (this.time !== undefined) this.show(this.time);
+    });
+    for (const { svg } of this.plots) this.observer.observe(svg);
   }
 
   show(time) {
-    for (const { line, x0, x1, t0, t1 } of this.plots) {
+    this.time = time;
+    for (const { line, x0, x1, t0, t1, seen } of this.plots) {
+      if (!seen) continue;
       const x = x0 + (time - t0) / (t1 - t0) * (x1 - x0);
       line.style.display = time < t0 || time > t1 ? 'none' : '';
       line.setAttribute('x1', x);

@@ -108,7 +108,7 @@ class Run {
   place(mesh, { frame, part }) {
     const n = 3 * mesh.vertices, q = mesh.quantum_m, a = (frame - mesh.base) * n, b = part > 0 ? a + n : a, codes = mesh.codes, x = mesh.x;
     for (let i = 0; i < n; ++i) x[i] = q * (codes[a + i] + part * (codes[b + i] - codes[a + i]));
-    setNormals(x, mesh.corners, mesh.n);
+    setNormals(x, mesh.drawn || mesh.corners, mesh.n);
   }
 
   /// The rows of a mesh that moves as a whole: 12 numbers.

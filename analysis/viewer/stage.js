@@ -1,7 +1,8 @@
 // The picture: the runs beside each other, one camera for all of them.
 
 const kBodyBack_m = 0.006, kLayerBack_m = 0.0015, kFieldOfView = 24;
-const kManyCorners = 30000, kCubeInPlay_m = 0.02;
+const kManyCorners = 30000, kCubeInPlay_m = 0.02, kCubeIfSlow_m = 0.03, kSlow_ms = 34;
+const kAbove = [0xfb, 0xfb, 0xfc], kBelow = [0xe1, 0xe5, 0xeb], kBands = 26;
 
 const kViews = {
   front: [1, 0, 0.12], back: [-1, 0, 0.12], left: [0, 1, 0.12], right: [0, -1, 0.12], top: [0.001, 0, 1],
@@ -36,17 +37,11 @@ class Actor {
       mesh.object.matrixAutoUpdate = false;
       this.root.add(mesh.object);
       mesh.shown = true;
-      if (!cloth) continue;
-      const border = new THREE.BufferGeometry();
-      border.setIndex(new THREE.BufferAttribute(bordersOf(mesh.corners, mesh.vertices), 1));
-      border.setAttribute('position', geometry.attributes.position);
-      mesh.border = new THREE.LineSegments(border, plainMaterial(0.16, 0.18, 0.23, 0.6));
-      mesh.border.frustumCulled = false;
-      this.root.add(mesh.border);
     }
     this.shared = shared;
     this.ground = new Ground();
     this.scene.add(this.ground.object);
+    this.ground.object.visible = false;
     this.mark = new THREE.Mesh(new THREE.SphereBufferGeometry(0.006, 16, 12), plainMaterial(0.106, 0.122, 0.153, 1, true));
     this.mark.visible = false;
     this.mark.renderOrder = 9;
@@ -60,23 +55,38 @@ class Actor {
     this.ground.object.position.z = this.height - 0.002;
   }
 
-  /// All frames have come.
+  /// All frames have come. The ground and the borders of the cloth come only now: what draws them would hold up the first picture.
   complete() {
     this.stand();
-    for (const mesh of this.run.meshesOf('body')) {
-      if (mesh.corners.length < kManyCorners) continue;
-      const fewer = fewerCorners(mesh.x, mesh.corners, kCubeInPlay_m);
-      mesh.indices = [mesh.object.geometry.index, new THREE.BufferAttribute(fewer, 1)];
+    this.ground.object.visible = true;
+    for (const mesh of this.run.meshesOf('cloth')) {
+      const border = new THREE.BufferGeometry();
+      border.setIndex(new THREE.BufferAttribute(bordersOf(mesh.corners, mesh.vertices), 1));
+      border.setAttribute('position', mesh.object.geometry.attributes.position);
+      mesh.border = new THREE.LineSegments(border, plainMaterial(0.16, 0.18, 0.23, 0.6));
+      mesh.border.frustumCulled = false;
+      mesh.border.visible = mesh.shown;
+      this.root.add(mesh.border);
+    }
+    for (const mesh of this.run.meshes) {
+      if (mesh.kind === 'thing' || mesh.kind === 'body' && mesh.corners.length < kManyCorners) continue;
+      const all = mesh.object.geometry.index, body = mesh.kind === 'body';
+      const fewer = cube_m => new THREE.BufferAttribute(fewerCorners(mesh.x, mesh.n, mesh.corners, cube_m), 1);
+      mesh.indices = { stands: all, plays: body ? fewer(kCubeInPlay_m) : all, slow: fewer(body ? kCubeIfSlow_m : kCubeInPlay_m) };
     }
     if (!this.run.arrows) return;
     this.arrows = new Arrows(this.run.arrows, this.shared);
     this.root.add(this.arrows.object);
   }
 
-  /// Bodies of many triangles have fewer while they move: the cloth is what is looked at.
-  move(moves) {
+  /// Bodies of many triangles have fewer while they move: the cloth is what is looked at. Both have fewer where the browser is slow.
+  move(moves, slow) {
     for (const mesh of this.run.meshes)
-      if (mesh.indices) mesh.object.geometry.setIndex(mesh.indices[moves ? 1 : 0]);
+      if (mesh.indices) {
+        const index = mesh.indices[!moves ? 'stands' : slow ? 'slow' : 'plays'];
+        mesh.object.geometry.setIndex(index);
+        mesh.drawn = index.array;
+      }
   }
 
   /// In the scene's axes: z is up.
@@ -189,12 +199,8 @@ class Actor {
 }
 
 class Stage {
-  /// `context`: of the canvas, which was asked for already.
-  constructor(canvas, context, runs, colors) {
+  constructor(canvas, runs, colors) {
     this.canvas = canvas;
-    this.renderer = new THREE.WebGLRenderer({ canvas, context });
-    this.renderer.setClearColor(0x000000, 0);
-    this.renderer.autoClear = false;
     this.shared = { colors: { value: colorTexture(colors) }, low: { value: 0 }, high: { value: 1 }, up: { value: new THREE.Vector3(0, 1, 0) } };
     this.actors = runs.map(run => new Actor(run, this.shared));
     this.camera = new THREE.PerspectiveCamera(kFieldOfView, 1, 0.05, 60);
@@ -206,6 +212,15 @@ class Stage {
     this.controls.maxDistance = 14;
     this.controls.rotateSpeed = 0.7;
     this.controls.addEventListener('change', () => this.draw());
+  }
+
+  /// From here on it draws; false where the browser has no WebGL.
+  begin() {
+    const { canvas } = this, context = canvas.getContext('webgl', { antialias: false, alpha: false });
+    if (!context) return false;
+    this.renderer = new THREE.WebGLRenderer({ canvas, context });
+    this.renderer.autoClear = false;
+    return true;
   }
 
   /// Where the runs stand in the picture: [x, y, width, height] of each, from the lower left.
@@ -243,13 +258,14 @@ class Stage {
     if (took > 250) return;
     this.mean = 0.9 * (this.mean || 17) + 0.1 * took;
     this.paced = (this.paced || 0) + 1;
+    this.slow = this.slow || this.playing && this.mean > kSlow_ms;
     if (this.smooth && this.mean > 24) { this.smooth = false; this.tried = (this.tried || 0) + 1; this.paced = 0; }
     if (!this.smooth && this.paced > 30 && this.mean < 18 && (this.tried || 0) < 2) { this.smooth = true; this.paced = 0; }
   }
 
   /// Not before the next picture of the browser, and once for all that changed.
   draw() {
-    if (this.waiting) return;
+    if (this.waiting || !this.renderer) return;
     this.waiting = true;
     requestAnimationFrame(() => { this.waiting = false; this.drawNow(); });
   }
@@ -262,12 +278,25 @@ class Stage {
     if (!this.playing) this.rest = setTimeout(() => { if (!this.waiting) this.paint(this.fineRatio()); }, 220);
   }
 
+  /// Bands from above to below, each one step of a screen's colours: they cost nothing, while a background that shines through the
+  /// picture is blended into every frame.
+  clear() {
+    const { renderer } = this, { clientWidth: w, clientHeight: h } = this.canvas, color = new THREE.Color();
+    renderer.setScissorTest(false);
+    renderer.clear(false, true, true);
+    renderer.setScissorTest(true);
+    for (let k = 0; k < kBands; ++k) {
+      color.setRGB(...kBelow.map((c, i) => (c + (kAbove[i] - c) * k / (kBands - 1)) / 255));
+      renderer.setClearColor(color, 1);
+      renderer.setScissor(0, Math.floor(h * k / kBands), w, Math.ceil(h / kBands) + 1);
+      renderer.clear(true, false, false);
+    }
+  }
+
   paint(ratio) {
     this.sharpen(ratio);
     const { renderer, camera } = this;
-    renderer.setScissorTest(false);
-    renderer.clear();
-    renderer.setScissorTest(true);
+    this.clear();
     this.places().forEach(([x, y, w, h], k) => {
       renderer.setViewport(x, y, w, h);
       renderer.setScissor(x, y, w, h);
@@ -276,7 +305,6 @@ class Stage {
       camera.updateMatrixWorld();
       this.shared.up.value.set(0, 0, 1).transformDirection(camera.matrixWorldInverse);
       this.actors[k].sizeMark(camera);
-      this.actors[k].move(this.playing);
       renderer.render(this.actors[k].scene, camera);
     });
     this.drawn = (this.drawn || 0) + 1;

@@ -350,7 +350,7 @@ int render(RenderArguments& a) {
   if (other == request.results.end()) return renderFilm(request);
   refuseFilm(a);
   const PictureCase& p = request.picture;
-  const RenderOptions options{*other, request.output, p.field, p.when, p.time_s, p.view, p.width, p.height};
+  const RenderOptions options{*other, request.output, p.field, p.when, p.time_s, p.view, *p.width, *p.height};
   return holdsCell(*other) ? renderCellResults(options) : renderStructureResults(options);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 /// A picture of results, as cases, studies and the command ask for it.
 
+#include <optional>
+
 #include "analysis/render/render.hpp"
 #include "cases/input/schema.hpp"
 
@@ -19,8 +21,18 @@ struct PictureCase {
   PictureField field = PictureField::stress;
   View view = View::front_right;
   PictureAround around = PictureAround::wearer;
+  std::optional<int> width{}, height{};  ///< in pixels
+};
+
+struct PictureSize {
   int width = 1280, height = 960;
 };
+
+/// As wearers stand, and as the places of pictures on a page are.
+inline constexpr PictureSize kUpright{960, 1280};
+
+/// As the picture names it, or `usual`; where it names one side alone, of the shape of `usual`.
+PictureSize sizeOf(const PictureCase& picture, PictureSize usual);
 
 namespace schema {
 

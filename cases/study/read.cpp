@@ -80,7 +80,7 @@ void takeWhere(const Entry& entry, const Study& s, std::vector<std::vector<int>>
 }
 
 std::vector<PictureCase> usualPictures(const StudyInput& in) {
-  PictureCase stress{PictureTime::peak, 0, PictureField::stress, View::front_right, PictureAround::wearer, 640, 720};
+  PictureCase stress{PictureTime::peak, 0, PictureField::stress, View::front_right};
   if (!in.optimise) return {stress};
   std::vector<PictureCase> all{stress, stress, stress};
   all[0].field = all[1].field = PictureField::thickness;
@@ -168,6 +168,10 @@ Study readStudy(const std::filesystem::path& file) {
   s.file = file;
   s.limits = in.limits;
   s.pictures = in.pictures.value_or(usualPictures(in));
+  for (PictureCase& p : s.pictures) {
+    const PictureSize size = sizeOf(p, {640, 720});  // several stand side by side
+    p.width = size.width, p.height = size.height;
+  }
   if (in.optimise) {
     readOptimise(entry, in, s);
     return s;

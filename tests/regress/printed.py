@@ -24,10 +24,13 @@ from common import HERE, SKIPPED, Folder, check, run, run_case
 MOST_PAGES = 8
 WIDTH, HEIGHT = 595.3, 841.9  # A4 [pt]
 TEXTS = """(() => {
-  document.querySelectorAll('details').forEach(d => d.open = true);
+  const folded = [...document.querySelectorAll('details:not([open])')];
+  folded.forEach(d => d.open = true);
   const shown = e => e.getClientRects().length && getComputedStyle(e).visibility !== 'hidden';
   const texts = s => [...document.querySelectorAll(s)].filter(shown).map(e => e.innerText);
-  return JSON.stringify({cells: texts('th, td'), titles: texts('h1, h2, h3, figcaption, caption')});
+  const all = JSON.stringify({cells: texts('th, td'), folds: texts('details'), titles: texts('h1, h2, h3, figcaption, caption')});
+  folded.forEach(d => d.open = false);  // the page itself opens them for paper
+  return all;
 })()"""
 # What reaches past the screen, or past what can be moved.
 WIDE = """(() => {

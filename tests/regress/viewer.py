@@ -143,7 +143,11 @@ def pixels(page):
         const gl = v.stage.renderer.getContext(), w = gl.drawingBufferWidth, h = gl.drawingBufferHeight, all = new Uint8Array(4 * w * h);
         gl.readPixels(0, 0, w, h, gl.RGBA, gl.UNSIGNED_BYTE, all);
         let hash = 0, painted = 0;
-        for (let i = 0; i < all.length; i += 4) { hash = (hash * 31 + all[i] + 7 * all[i + 1] + 49 * all[i + 2]) | 0; painted += all[i + 3] > 200; }
+        // What is painted differs from the background, which is that of the row's first pixel.
+        for (let i = 0; i < all.length; i += 4) {
+          hash = (hash * 31 + all[i] + 7 * all[i + 1] + 49 * all[i + 2]) | 0;
+          painted += Math.abs(all[i] - all[i - i % (4 * w)]) > 24;
+        }
         if (painted < 0.01 * w * h) throw new Error('the picture is empty');
         return hash;""")
 
@@ -241,7 +245,9 @@ def study_of(case, folder):
 
 def stills_without_webgl(page_file):
     with browser.Browser(browser.find()) as page:
-        page.call("Page.addScriptToEvaluateOnNewDocument", source="HTMLCanvasElement.prototype.getContext = () => null;")
+        page.call("Page.addScriptToEvaluateOnNewDocument", source="""
+            const all = HTMLCanvasElement.prototype.getContext;
+            HTMLCanvasElement.prototype.getContext = function (kind, ...more) { return kind === '2d' ? all.call(this, kind, ...more) : null; };""")
         page.open(page_file)
         check(page.evaluate("gambesonViewer.then(v => !v)"), "there is a viewer without WebGL")
         text = page.evaluate("document.getElementById('look-around').innerText")

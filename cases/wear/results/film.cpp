@@ -59,7 +59,8 @@ struct Take {
 
 class Filming {
  public:
-  explicit Filming(const FilmRequest& request) : o_(request), from_(request.picture.view) {
+  explicit Filming(const FilmRequest& request)
+      : o_(request), from_(request.picture.view), size_(sizeOf(request.picture, {})) {
     if (o_.azimuth_deg) from_.azimuth_deg = *o_.azimuth_deg;
     if (o_.elevation_deg) from_.elevation_deg = *o_.elevation_deg;
     film_ = isFilmFile(o_.output, format_);
@@ -76,7 +77,7 @@ class Filming {
 
   void write() {
     std::optional<Film> film;
-    if (film_) film.emplace(format_, o_.picture.width, o_.picture.height, times_.fps);
+    if (film_) film.emplace(format_, size_.width, size_.height, times_.fps);
     Image image;
     for (int k = 0; k < times_.count; ++k) {
       if (k == 0 || differs(k)) image = draw(static_cast<std::size_t>(k));
@@ -106,7 +107,7 @@ class Filming {
         if (given) refuse(option, "is for films (.mp4, .webm, .gif); a picture has --time");
       return;
     }
-    const auto& [width, height] = std::pair(o_.picture.width, o_.picture.height);
+    const auto& [width, height] = size_;
     if (format_ != FilmFormat::gif && (width % 2 != 0 || height % 2 != 0))
       refuse("--size", fmt::format("{}x{} is odd; allowed in .mp4 and .webm: even numbers", width, height));
     if (format_ == FilmFormat::gif && o_.fps && *o_.fps > 50)
@@ -160,10 +161,10 @@ class Filming {
     const int n = static_cast<int>(takes_.size()), columns = n == 4 ? 2 : n, rows = n == 4 ? 2 : 1;
     for (int i = 0; i < n; ++i) {
       Take& take = *takes_[static_cast<std::size_t>(i)];
-      take.left = o_.picture.width * (i % columns) / columns;
-      take.top = o_.picture.height * (i / columns) / rows;
-      take.width = o_.picture.width * (i % columns + 1) / columns - take.left;
-      take.height = o_.picture.height * (i / columns + 1) / rows - take.top;
+      take.left = size_.width * (i % columns) / columns;
+      take.top = size_.height * (i / columns) / rows;
+      take.width = size_.width * (i % columns + 1) / columns - take.left;
+      take.height = size_.height * (i / columns + 1) / rows - take.top;
     }
   }
 
@@ -237,7 +238,7 @@ class Filming {
   }
 
   Image draw(std::size_t k) {
-    Image all{o_.picture.width, o_.picture.height, {}};
+    Image all{size_.width, size_.height, {}};
     all.rgb.resize(3 * static_cast<std::size_t>(all.width) * static_cast<std::size_t>(all.height));
     for (const auto& take : takes_) {
       const DrawnFrame drawn = frame(*take, k);
@@ -254,6 +255,7 @@ class Filming {
 
   const FilmRequest& o_;
   Viewpoint from_;
+  PictureSize size_;
   bool film_ = false;
   FilmFormat format_ = FilmFormat::mp4;
   FilmTimes times_;

@@ -50,8 +50,11 @@ std::vector<PictureCase> picturesOf(const Case& c) {
   PictureCase usual;
   usual.field = PictureField::plain;
   usual.when = c.human ? PictureTime::peak : PictureTime::end;
-  if (c.human) std::swap(usual.width, usual.height);  // as the wearer stands, and as its place on the page is
   return c.output.pictures.value_or(std::vector{usual});
+}
+
+PictureSize sizeOf(const Scenario& s, const PictureCase& picture) {
+  return sizeOf(picture, s.human ? kUpright : PictureSize{});
 }
 
 double fieldRange(const Scenario& s, const RecordingReader& recording, PictureField field) {
@@ -157,7 +160,8 @@ void renderBody(const Scenario& s, const BodyMap& map, const BodyLoads& loads, d
   scene.subtitle = captionOf(picture, time_s, s.definition.comfort.sensor_m);
   scene.view = picture.view;
   scene.up = upOf(s);
-  writePng(render(scene, picture.width, picture.height), png);
+  const PictureSize size = sizeOf(s, picture);
+  writePng(render(scene, size.width, size.height), png);
 }
 
 void renderFrame(const Scenario& s, const RecordingReader& recording, int index, const PictureCase& picture,
@@ -170,8 +174,9 @@ void renderFrame(const Scenario& s, const RecordingReader& recording, int index,
     return;
   }
   const DrawnFrame drawn = FrameScenes(s, recording).at(index, picture, picture.view, scale);
-  const Camera camera = fitted(drawn.scene, drawn.shot, picture.width, picture.height);
-  writePng(render(drawn.scene, drawn.shot, camera, picture.width, picture.height), png);
+  const PictureSize size = sizeOf(s, picture);
+  const Camera camera = fitted(drawn.scene, drawn.shot, size.width, size.height);
+  writePng(render(drawn.scene, drawn.shot, camera, size.width, size.height), png);
 }
 
 }  // namespace gambeson

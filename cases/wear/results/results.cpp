@@ -87,7 +87,8 @@ void takeFilm(const Scenario& s, const RecordingReader& recording, const std::fi
   film.results = {dir};
   film.output = dir / kFilmFile;
   film.picture = picturesOf(s.definition).front();
-  for (int* size : {&film.picture.width, &film.picture.height}) *size = *size * 5 / 8;
+  const PictureSize size = sizeOf(s, film.picture);
+  film.picture.width = size.width * 5 / 8, film.picture.height = size.height * 5 / 8;
   try {
     renderFilm(film);
     in.facts.push_back({"Film", std::string(kFilmFile) + ", beside this page"});

@@ -54,6 +54,9 @@ void writeOpenSim(const Scenario& scenario, const Measured& measured, const std:
 /// too.
 std::vector<PictureCase> picturesOf(const Case& c);
 
+/// As the picture names it; else upright where a human wears the cloth.
+PictureSize sizeOf(const Scenario& scenario, const PictureCase& picture);
+
 /// Pressure on the body against comfort limits, for the page; nothing where nothing touches a human.
 void addComfort(const Scenario& scenario, const Measured& measured, ReportInput& in);
 
