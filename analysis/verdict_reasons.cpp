@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "analysis/ticks.hpp"
 #include "analysis/verdict_parts.hpp"
@@ -58,12 +59,14 @@ std::string whyOf(const VerdictInput& in, const Verdict& v) {
     say(fmt::format("Peak torque in Nm, where it counts most, as a multiple of that {} {}: {}.",
                     wordsOf(in.role).before, at(in, in.baseline).name, ratios));
   std::string laws;
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   for (const std::string& m : motionsOf(at(in, v.take)))
     if (const auto* e = exponentOf(in, *worstCost(at(in, v.take), &m)); e && !e->peak.turns()) {
       const std::string range = e->peak.points > 2
                                     ? fmt::format("{} to {} from one {} to the next", formatNumber(e->peak.lowest, 2),
                                                   formatNumber(e->peak.highest, 2), in.what)
                                     : "";
+      lowest = std::min(lowest, e->peak.exponent), highest = std::max(highest, e->peak.exponent);
       laws += (laws.empty() ? "" : ", ") + formatNumber(e->peak.exponent, 2) +
               bracketed(m + (m.empty() || range.empty() ? "" : "; ") + range);
     }
@@ -74,6 +77,12 @@ std::string whyOf(const VerdictInput& in, const Verdict& v) {
         "depend "
         "on the {0}, such as air drag and springs that hold the garment, 0.",
         in.what, laws));
+  // The three powers that are named, and what lies nearest to each.
+  const char* cause = lowest > 2                      ? "the fabric\u2019s bending"
+                      : lowest > 0.5 && highest < 1.5 ? "the fabric\u2019s stretch, its weight and its inertia"
+                      : highest < 0.5                 ? "what does not depend on how thick it is"
+                                                      : nullptr;
+  if (!laws.empty() && cause) say(fmt::format("So most of it comes from {}.", cause));
   return why;
 }
 
@@ -208,8 +217,10 @@ void judgeChoice(const VerdictInput& in, Verdict& v) {
   if (in.sized && v.light == Light::green) {
     margin = v.holds_up_to;
     if (margin)
-      say(fmt::format("It stays the answer {}as long as the torques are right within {}.",
-                      *margin < kNarrow ? "only " : "", percent(*margin)));
+      say(fmt::format(
+          "It stays the answer {}as long as the torques are right within {}: beyond that its own torque may "
+          "not be low enough, or that of another may be.",
+          *margin < kNarrow ? "only " : "", percent(*margin)));
   } else if (!v.chosen) {
     sayWorst(in, v);
     margin = v.light == Light::unknown ? v.order ? std::optional(*v.order - 1) : std::nullopt : v.holds_up_to;
@@ -239,9 +250,8 @@ void judgeChoice(const VerdictInput& in, Verdict& v) {
   if (!margin) v.surety = in.options.size() > 1 && v.light == Light::green ? Surety::fairly : Surety::no;
   if (error && margin) {
     v.surety = *margin > needed ? Surety::yes : Surety::no;
-    say(v.surety == Surety::yes
-            ? fmt::format("The error bar is smaller, {}.", percent(*error))
-            : fmt::format("The error bar is {}: too much to be sure.", percent(*error)));
+    say(v.surety == Surety::yes ? fmt::format("The error bar is smaller, {}.", percent(*error))
+                                : fmt::format("The error bar is {}: too much to be sure.", percent(*error)));
   } else if (margin && *margin < kNarrow) {
     say(v.chosen ? "A narrow margin: compare with a finer mesh before you decide."
                  : "A narrow margin: compare with a finer mesh.");

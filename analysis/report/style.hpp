@@ -17,14 +17,14 @@ h2 + p { margin-top:0; color:var(--soft); max-width:75ch; }
 h3 { font-size:1rem; margin:0 0 8px; }
 .headline { display:grid; grid-template-columns:minmax(0,1fr); gap:24px; margin:20px 0 0; background:var(--paper); border:1px solid var(--line); border-radius:14px; overflow:hidden; }
 .headline .words { padding:26px 28px; }
-.headline .sentence { font-size:1.5rem; line-height:1.3; margin:0 0 18px; font-weight:600; text-wrap:balance; }
+.headline .sentence { font-size:1.5rem; line-height:1.3; margin:0 0 18px; font-weight:600; text-wrap:pretty; } .headline .doubted { font-size:1.05rem; font-weight:500; }
 .headline img { width:100%; height:auto; max-height:640px; object-fit:contain; display:block; background:#f9fafa; }
 .headline figure { margin:0; } .headline > .meaning { grid-column:1 / -1; margin:-24px 28px 24px; }
 .headline figcaption { padding:6px 16px 12px; font-size:.9rem; color:var(--soft); }
 dl.answers { display:grid; grid-template-columns:max-content minmax(0,1fr); gap:7px 18px; margin:0; }
 dl.answers dt { color:var(--soft); }
 dl.answers dd { margin:0; font-weight:600; } dl.answers .reason { font-weight:400; }
-.meaning { margin:18px 0 0; padding-top:14px; border-top:1px solid var(--line); color:var(--soft); font-size:.95rem; }
+.words-mean { margin:22px 0 0; } .words-mean + .meaning { margin-top:4px; padding-top:0; border-top:0; } .meaning { margin:18px 0 0; padding-top:14px; border-top:1px solid var(--line); color:var(--soft); font-size:.95rem; }
 .cards { display:grid; grid-template-columns:repeat(auto-fill,minmax(235px,1fr)); gap:14px; margin-top:14px; }
 .card { background:var(--paper); border:1px solid var(--line); border-top:4px solid var(--accent); border-radius:10px; padding:14px 16px; }
 .card.left { border-top-color:var(--left); } .card.right { border-top-color:var(--right); }

@@ -32,9 +32,10 @@ std::string point(PointMark mark, double x, double y) {
     case PointMark::green:
       return fmt::format("<circle class=\"point green\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\"/>", x, y);
     case PointMark::doubtful:
-      return fmt::format("<path class=\"point doubtful\" d=\"M{:.2f} {:.2f}a4 4 0 0 1 0 8z\"/>"
-                         "<circle class=\"point ring\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\"/>",
-                         x, y - 4, x, y);
+      return fmt::format(
+          "<path class=\"point doubtful\" d=\"M{:.2f} {:.2f}a4 4 0 0 1 0 8z\"/>"
+          "<circle class=\"point ring\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"4\"/>",
+          x, y - 4, x, y);
     case PointMark::amber:
       return fmt::format("<path class=\"point amber\" d=\"M{:.2f} {:.2f}l5 9h-10z\"/>", x, y - 5.5);
     case PointMark::red:
@@ -83,6 +84,11 @@ struct Axis {
         if (c < low || c > high || (m != 1 && !few)) continue;
         all.push_back({c, formatNumber(m * std::pow(10.0, e), 1)});
       }
+    if (all.size() > 2) return all;
+    // Over less than a decade: round steps of the values.
+    all.clear();
+    const Ticks t = niceTicks(std::pow(10.0, low), std::pow(10.0, high), target);
+    for (const double v : t.values) all.push_back({std::log10(v), t.label(v)});
     return all;
   }
 };

@@ -65,9 +65,9 @@ Object pictureTable() {
               "nobody wears them both are the same")
       .unwritten()
       .integer("width", &P::width, 64, 8192,
-               "pixels; of a run default 960 where a human wears the cloth, else 1280; side by side in a study 640")
+               "pixels; of a run default 960 where a human wears the cloth, else 1280; side by side in a study 720")
       .integer("height", &P::height, 64, 8192,
-               "pixels; of a run default 1280 where a human wears the cloth, else 960; side by side in a study 720; "
+               "pixels; of a run default 1280 where a human wears the cloth, else 960; side by side in a study 960; "
                "where one of both is given the other keeps this shape")
       .build();
 }

@@ -45,9 +45,13 @@ std::string htmlTable(const std::string& title, const std::vector<std::string>& 
   }
   for (const auto& row : rows) {
     std::string cells;
-    for (std::size_t k = 0; k < row.size(); ++k)
-      cells += k == 0 ? element("th", together(row[k].html), " scope=\"row\"")
-                      : element("td", row[k].html, row[k].number ? " class=\"number\"" : "");
+    // One that has no cells beside it runs over all columns.
+    if (row[0].heads && row.size() == 1)
+      cells = element("th", together(row[0].html), fmt::format(" scope=\"rowgroup\" colspan=\"{}\"", columns.size()));
+    else
+      for (std::size_t k = 0; k < row.size(); ++k)
+        cells += k == 0 ? element("th", together(row[k].html), " scope=\"row\"")
+                        : element("td", row[k].html, row[k].number ? " class=\"number\"" : "");
     body += element("tr", cells, row[0].heads ? " class=\"group\"" : "");
   }
   return html::tablePanel(title, element("thead", element("tr", head)) + element("tbody", body),
@@ -162,7 +166,17 @@ std::string comfortBar(const Study& s, const Comparison& c) {
   for (const auto& [quantity, name] : {std::pair(Q::mean_pressure, "mean"), std::pair(Q::peak_pressure, "peak")})
     if (const auto n = gambeson::study::barOf(s, c, worst, {quantity, least->zone, ""}); n && n->relative())
       text += fmt::format("{} of the {} \u00b1 {}", text.empty() ? " Error bar" : ",", name, percent(*n->relative()));
-  return text.empty() ? "" : text + ".";
+  if (!text.empty()) text += ".";
+  // The runs of the error bars are those of another variant, and may fare worse.
+  int all = 0, worse = 0;
+  for (std::size_t i = 0; i < s.variants.size(); ++i) {
+    const ComfortNumbers* k = s.variants[i].part != BarPart::none ? c.runs[i].leastComfortable() : nullptr;
+    all += k != nullptr, worse += k && (k->light == "amber" || k->light == "red");
+  }
+  if (worse > 0)
+    text += fmt::format(" Of the {} runs that tell the error bars {} {} a part of the body that is amber or red.", all,
+                        worse, worse == 1 ? "has" : "have");
+  return text;
 }
 
 /// Where none is taken: each, with its own natural moments.
@@ -191,7 +205,7 @@ std::string takenOf(const Study& s, const Comparison& c) {
     if (!mass && memberName(s, c, i) == o.name) mass = c.runs[i].mass_kg();
     if (!base && s.variants[i].baseline == static_cast<int>(i)) base = c.runs[i].mass_kg();
   }
-  if (!c.verdict.garments.empty()) list += item("Garments", prose(c.verdict.garments));
+  if (!c.verdict.garments.empty()) list += item("Thickness", prose(c.verdict.garments));
   if (mass && *mass > 0)
     list += item("Weighs", base && formatNumber(*base) != formatNumber(*mass)
                                ? fmt::format("{} kg instead of {} kg", formatNumber(*mass), formatNumber(*base))
@@ -208,6 +222,25 @@ std::string card(const std::string& title, const std::string& text, const std::s
   return text.empty()
              ? ""
              : element("div", element("h3", escape(title)) + element("p", prose(text)) + after, " class=\"card\"");
+}
+
+/// What follows for the garment, as far as this study goes.
+std::string changesOf(const Study& s, const Comparison& c) {
+  if (!c.verdict.chosen || c.verdict.take < 0 || c.input.role == Role::model) return "";
+  const Option& o = c.input.options[static_cast<std::size_t>(c.verdict.take)];
+  const bool is_baseline = c.verdict.take == c.input.baseline;
+  std::string text = is_baseline || c.input.baseline < 0
+                         ? fmt::format("Of what was varied: {}.", o.name)
+                         : fmt::format("Of what was varied: {} in place of {}.", o.name,
+                                       c.input.options[static_cast<std::size_t>(c.input.baseline)].name);
+  if (c.elasticities.empty())
+    text +=
+        " Which property of the fabric makes the torque was not asked: \"elasticities\" in the study\u2019s file "
+        "tells.";
+  else
+    text += " Which property of the fabric makes the torque: see what the torque is made of.";
+  if (!s.optimise) text += " Where the garment should be thick and where thin was not asked: \"optimise\" tells.";
+  return text;
 }
 
 /// What the words of the verdict mean, with every word of the lights.
@@ -227,12 +260,19 @@ std::string meaningOf(const Study& s, const Comparison& c) {
   text +=
       "Doubtful: green by its number, but a check of a run fails, or the fabric stretches further than it is meant "
       "for. Not judged: a check fails that leaves none of the numbers.";
-  return element("p", escape(text), " class=\"meaning\"");
+  return element("h3", "What the words mean", " class=\"words-mean\"") +
+         element("p", escape(text), " class=\"meaning\"");
 }
 
 std::string headline(const Study& s, const Comparison& c, const std::vector<SidePicture>& pictures) {
   const Verdict& v = c.verdict;
-  std::string words = element("p", prose(v.sentence), " class=\"sentence\"");
+  // What leaves the answer in doubt stands in its sentence, in smaller letters.
+  const std::size_t doubt = v.doubt.empty() ? std::string::npos : v.sentence.find(v.doubt);
+  std::string words = element(
+      "p",
+      prose(v.sentence.substr(0, doubt)) +
+          (doubt == std::string::npos ? "" : element("span", prose(v.sentence.substr(doubt)), " class=\"doubted\"")),
+      " class=\"sentence\"");
   words += judged(v.cover, v.enough) + judged(v.comfort_light, v.comfort.empty() ? "" : v.comfort + comfortBar(s, c)) +
            takenOf(s, c);
   std::string meaning;
@@ -241,9 +281,10 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
         std::string(c.input.role == Role::model
                         ? "Kinds of cloth are ways to compute one garment, and none is a design to take: how far they "
                           "are apart tells how far a torque hangs on the way."
-                        : ""),
-        std::string("Effort and comfort only: what protects enough is not part of this study.")})
+                        : "")})
     if (!note.empty()) meaning += element("p", prose(note), " class=\"meaning\"");
+  meaning += element("p", "<strong>Effort and comfort only: what protects enough is not part of this study.</strong>",
+                     " class=\"meaning\"");
   std::string body = element("div", words, " class=\"words\"");
   // The one taken, in the motion that decides.
   const SidePicture* shown = nullptr;
@@ -263,7 +304,7 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
   const char* surety[]{"not sure", "fairly sure", "sure"};
   const std::string cards =
       card(v.chosen && v.light != Light::red ? "Why this one" : "How they differ", v.why) +
-      card("Thinner still?", v.estimate) +
+      card("What to change", changesOf(s, c)) + card("Thinner still?", v.estimate) +
       card(fmt::format("{}: {}",
                        v.chosen                      ? "Which one"
                        : c.input.role == Role::model ? "The largest"
@@ -331,13 +372,17 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
   pageSection(
       "pay", batch || !joints ? "The runs" : "What each joint pays",
       !joints ? ""
-      : c.population ? "The largest added torque" + shares + " of each wearer."
-             : "The largest added torque" + shares +
-                   " and as a part of that of the baseline, the variant that the others are compared with, in the same "
-                   "motion.",
+      : c.population
+          ? "The largest added torque" + shares + " of each wearer."
+          : "The largest added torque" + shares +
+                " and as a part of that of the baseline, the variant that the others are compared with, in the same "
+                "motion.",
       payOf(s, c));
   if (!batch && !c.population) {
     pageSection("curves", "Added torque over time", "Each variant has one colour throughout.", curvesOf(s, c));
+  }
+  pageSection("forces", "Comfort, and where the garment presses", "", forcesOf(s, c));
+  if (!batch && !c.population) {
     pageSection("laws", "How the torque changes with what varies", "", lawsOf(s, c));
     pageSection("elasticities", "What the torque is made of", "", elasticitiesOf(c));
     pageSection("meshes", "Coarse and fine", "What the error bar of the verdict comes from.", meshesOf(c));
@@ -347,7 +392,6 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
                 sureOf(s, c));
     pageSection("standing", "Standing and moving", "", standingOf(s, c));
   }
-  pageSection("forces", "Comfort, and where the garment presses", "", forcesOf(s, c));
   pageSection("measured", "Against measured garments", "Where garment and motion correspond.", measuredOf(s, c));
   pageSection("garments", "The garments", "", kindsOf(s, c) + thicknessPage(s, c));
   pageSection("cloth", "How it sits", "", clothOf(s, c));
@@ -360,7 +404,11 @@ std::string studyPage(const Study& s, const Comparison& c, const std::vector<Sid
         pairs(s, pictures));
   pageSection("checks", "Checks", "Every run checks itself, step by step.", checksOf(s, c));
   pageSection("assumptions", "What was left out and assumed", "", leftOutOf(s, c));
-  return pageOf(s.name, s.description, batch ? s.name : c.population ? c.population->sentence : c.verdict.sentence, body, !views.empty());
+  return pageOf(s.name, s.description,
+                batch          ? s.name
+                : c.population ? c.population->sentence
+                               : c.verdict.sentence,
+                body, !views.empty());
 }
 
 }  // namespace gambeson::study

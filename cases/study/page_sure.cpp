@@ -48,17 +48,25 @@ std::string sourcesOf(const Study& s, const Budget& b, const BarredNumber& n) {
 std::string adviceOf(const Study& s, const Budget& b, const BarredNumber& n) {
   std::string text;
   for (const std::string& sentence : gambeson::study::adviceOf(s, n)) text += (text.empty() ? "" : " ") + sentence;
-  return element("dt", escape(headed(settingOf(s, b), nameOf(n.what)))) + element("dd", prose(text));
+  return element("dt", escape(headed(settingOf(s, b), nameOf(n.what)))) +
+         element("dd", element("span", prose(text), " class=\"reason\""));
+}
+
+/// Of what the rows below are.
+void head(std::vector<std::vector<Html>>& rows, const std::string& setting) {
+  if (!setting.empty()) rows.push_back({Html::heading(escape(setting))});
 }
 
 std::string partsTable(const Study& s, const Comparison& c) {
   std::vector<std::vector<Html>> rows;
   const auto cell = [](const std::optional<double>& x) { return Html(x, 2); };
-  for (const Budget& b : c.budgets)
+  for (const Budget& b : c.budgets) {
+    head(rows, settingOf(s, b));
     for (const BarredNumber& n : b.numbers)
-      rows.push_back({escape(headed(settingOf(s, b), nameOf(n.what))), std::string(n.what.unit()), Html(n.value),
-                      cell(n.bar.combined()), cell(n.relative() ? std::optional(100 * *n.relative()) : std::nullopt),
-                      cell(n.bar.mesh), cell(n.bar.step), cell(n.bar.fabric)});
+      rows.push_back({escape(nameOf(n.what)), std::string(n.what.unit()), Html(n.value), cell(n.bar.combined()),
+                      cell(n.relative() ? std::optional(100 * *n.relative()) : std::nullopt), cell(n.bar.mesh),
+                      cell(n.bar.step), cell(n.bar.fabric)});
+  }
   return htmlTable("Every number with its error bar",
                    {"number", "unit", "value", "\u00b1", "\u00b1 [%]", "by mesh", "by step", "by fabric"}, rows,
                    "In 19 of 20 cases the true number lies within \u00b1 of the value. Mesh: from the difference to "
@@ -75,19 +83,21 @@ std::string fabricTable(const Study& s, const Comparison& c) {
     columns.push_back(fmt::format("{} ({} %) [% of the variance]", p.name, formatNumber(100 * p.deviation, 2)));
   columns.insert(columns.end(), {"no single number [%]", "residual", "explained by a line [%]", "samples"});
   std::vector<std::vector<Html>> rows;
-  for (const Budget& b : c.budgets)
+  for (const Budget& b : c.budgets) {
+    const auto fitted = [](const BarredNumber& n) { return n.fabric.has_value(); };
+    if (std::any_of(b.numbers.begin(), b.numbers.end(), fitted)) head(rows, settingOf(s, b));
     for (const BarredNumber& n : b.numbers) {
-      if (!n.fabric) continue;
+      if (!fitted(n)) continue;
       const SpreadFit& fit = *n.fabric;
       const double total = fit.total();
       const auto part = [&](double v) { return Html(total > 0 ? 100 * v / total : std::nan(""), 2); };
-      std::vector<Html> row{escape(headed(settingOf(s, b), nameOf(n.what))), std::string(n.what.unit()),
-                            Html(fit.deviation(), 2)};
+      std::vector<Html> row{escape(nameOf(n.what)), std::string(n.what.unit()), Html(fit.deviation(), 2)};
       for (const double v : fit.variance) row.push_back(part(v));
       row.insert(row.end(), {part(fit.residual * fit.residual), Html(fit.residual, 2), Html(100 * fit.explained, 2),
                              Html(static_cast<int>(fit.runs))});
       rows.push_back(std::move(row));
     }
+  }
   if (rows.empty()) return "";
   return htmlTable(
       "What of the fabric\u2019s spread the numbers go with", columns, rows,
@@ -149,8 +159,8 @@ std::string sureOf(const Study& s, const Comparison& c) {
       sources += sourcesOf(s, b, n);
     }
   }
-  return element("dl", advice, " class=\"answers\"") + charts(sources) + charts(partsTable(s, c)) +
-         charts(fabricTable(s, c)) + notesOf(s, c);
+  return element("div", element("dl", advice, " class=\"answers\""), " class=\"panel\"") + charts(sources) +
+         charts(partsTable(s, c)) + charts(fabricTable(s, c)) + notesOf(s, c);
 }
 
 }  // namespace gambeson::study

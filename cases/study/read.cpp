@@ -169,7 +169,7 @@ Study readStudy(const std::filesystem::path& file) {
   s.limits = in.limits;
   s.pictures = in.pictures.value_or(usualPictures(in));
   for (PictureCase& p : s.pictures) {
-    const PictureSize size = sizeOf(p, {640, 720});  // several stand side by side
+    const PictureSize size = sizeOf(p, {720, 960});  // several stand side by side
     p.width = size.width, p.height = size.height;
   }
   if (in.optimise) {

@@ -221,13 +221,15 @@ std::vector<std::string> adviceOf(const Study& s, const BarredNumber& n) {
                     "{}.",
                     spreadName(spread.name), shareText(*best / fit.total()), formatNumber(50 * spread.deviation, 2),
                     formatNumber(100 * spread.deviation, 2), say(barWith(n, kCoverage * std::sqrt(*best), 2))));
-  else if (fit.total() > 0)
+  else if (fit.total() > 0) {
+    const std::string now = say(*whole), then = say(barWith(n, kCoverage * std::sqrt(*best), 2));
     all.push_back(fmt::format(
         "{} of the fabric\u2019s spread follows none of its numbers by itself: numbers that work together, and what "
         "differs "
-        "from run to run as cloth folds or slips otherwise. To measure {} better would take it from {} to {}.",
-        shareText(scatter / fit.total()), spreadName(spread.name), say(*whole),
-        say(barWith(n, kCoverage * std::sqrt(*best), 2))));
+        "from run to run as cloth folds or slips otherwise. To measure {} better would {}.",
+        shareText(scatter / fit.total()), spreadName(spread.name),
+        now == then ? "hardly change it" : fmt::format("take it from {} to {}", now, then)));
+  }
   return all;
 }
 

@@ -329,7 +329,7 @@ TEST(VerdictPages, NothingIsAnsweredWhereNothingCanBeReliedOn) {
   const Study s = studyOf(story);
   const Comparison c = compared(s, story);
   const std::string page = studyPage(s, c, {}, {});
-  for (const char* text : {"Why this one", "It stays the answer", "Garments</dt>", "Weighs</dt>", "Costs</dt>",
+  for (const char* text : {"Why this one", "It stays the answer", "Thickness</dt>", "Weighs</dt>", "Costs</dt>",
                            "others hold all checks", "in doubt", "not known</span>", "Which one"})
     EXPECT_FALSE(has(page, text)) << text;
   EXPECT_EQ(c.verdict.comfort, "Comfort: not judged.");
