@@ -226,7 +226,7 @@ class Stage {
   /// Where the runs stand in the picture: [x, y, width, height] of each, from the lower left.
   places() {
     const { clientWidth: w, clientHeight: h } = this.canvas, n = this.actors.length;
-    const columns = n === 1 ? 1 : w < 620 ? Math.min(2, n) : n, rows = Math.ceil(n / columns);
+    const columns = n > 3 && w < 620 ? 2 : n, rows = Math.ceil(n / columns);
     return this.actors.map((_, k) => {
       const c = k % columns, r = Math.floor(k / columns);
       return [w * c / columns, h * (rows - 1 - r) / rows, w / columns, h / rows];
