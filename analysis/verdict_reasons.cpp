@@ -78,10 +78,11 @@ std::string whyOf(const VerdictInput& in, const Verdict& v) {
         "on the {0}, such as air drag and springs that hold the garment, 0.",
         in.what, laws));
   // The three powers that are named, and what lies nearest to each.
-  const char* cause = lowest > 2                      ? "the fabric\u2019s bending"
-                      : lowest > 0.5 && highest < 1.5 ? "the fabric\u2019s stretch, its weight and its inertia"
-                      : highest < 0.5                 ? "what does not depend on how thick it is"
-                                                      : nullptr;
+  const char* cause = lowest > 2 ? "the fabric\u2019s bending"
+                      : lowest > 0.5 && highest < 1.5
+                          ? "the fabric\u2019s stretch, its weight and its inertia, with the friction that these cause"
+                      : highest < 0.5 ? "what does not depend on how thick it is"
+                                      : nullptr;
   if (!laws.empty() && cause) say(fmt::format("So most of it comes from {}.", cause));
   return why;
 }

@@ -47,6 +47,7 @@ JointNumbers jointOf(const Json& j) {
   n.rms_Nm = j.at("rms" + unit).number();
   n.standing_Nm = optional(j, "standing" + unit);
   n.rate_at_peak = j.at("joint_rate_at_peak").number();
+  if (j.contains("cause")) n.cause = j.at("cause").text();
   n.natural_Nm = optional(j, "natural_peak_Nm");
   if (j.contains("natural_is_held")) {
     n.foot_part = optional(j.at("natural_is_held"), "foot_share_of_weight");

@@ -16,6 +16,7 @@ struct JointNumbers {
   bool prismatic = false;
   double peak_Nm = 0, peak_time_s = 0, rms_Nm = 0;  ///< of the added torque; the peak is signed
   double rate_at_peak = 0;                          ///< of the joint [rad/s]
+  std::string cause;                                ///< completes "during ...", of the peak; empty where not known
   std::optional<double> standing_Nm;                ///< dressed at rest before the motion
   std::optional<double> natural_Nm;                 ///< peak moment of the task without the garment
   std::optional<double> foot_part, lever_m;         ///< of a natural moment of holding still: StaticMoment

@@ -125,28 +125,34 @@ std::string item(const std::string& question, const std::string& html) {
   return element("dt", escape(question)) + element("dd", html);
 }
 
-/// " ± 0.31", of a cost of an option.
-std::string barOf(const Study& s, const Comparison& c, const Option& option, const Option::Cost& cost) {
+/// The joint of a cost of an option, and the variant whose it is; null where there is none.
+std::pair<const JointNumbers*, std::size_t> payerOf(const Study& s, const Comparison& c, const Option& option,
+                                                    const Option::Cost& cost) {
   for (const VariantGroup& g : c.groups)
     for (const std::size_t i : g.members)
       if (g.label == cost.motion && memberName(s, c, i) == option.name)
         for (const JointNumbers& j : c.runs[i].joints)
-          if (j.label == cost.joint) return plusMinus(s, c, i, {Headline::Quantity::peak, j.name, j.label});
-  return "";
+          if (j.label == cost.joint) return {&j, i};
+  return {nullptr, 0};
 }
 
-/// "4 % of natural 52.0 Nm: 2.08 ± 0.31 Nm, left hip (flexion)" with its light.
+/// "4 % of natural 52.0 Nm: 2.08 ± 0.31 Nm, left hip (flexion), at 0.84 s, during swing ..." with its light.
 std::string costOf(const Study& s, const Comparison& c, const Option& option, const Option::Cost& worst) {
   const std::string share =
       worst.part ? fmt::format("{} of natural {} Nm: ", percentBeside(*worst.part, s.limits.green, s.limits.red),
                                formatNumber(worst.peak_Nm / *worst.part))
                  : "";
+  const auto [payer, variant] = payerOf(s, c, option, worst);
+  std::string bar, when;
+  if (payer) {
+    bar = plusMinus(s, c, variant, {Headline::Quantity::peak, payer->name, payer->label});
+    when = ", at " + html::seconds(payer->peak_time_s) + (payer->cause.empty() ? "" : ", during " + payer->cause);
+  }
   // Where no run knows a natural moment, no light is missing.
-  return fmt::format("{}{}", anyNatural(c) ? lightOf(s, trustOf(c.input), worst.part) + " " : "",
-                     element("span",
-                             prose(fmt::format("{}{}{} Nm, {}", share, formatNumber(worst.peak_Nm),
-                                               barOf(s, c, option, worst), worst.joint)),
-                             " class=\"reason\""));
+  return fmt::format(
+      "{}{}", anyNatural(c) ? lightOf(s, trustOf(c.input), worst.part) + " " : "",
+      element("span", prose(fmt::format("{}{}{} Nm, {}{}", share, formatNumber(worst.peak_Nm), bar, worst.joint, when)),
+              " class=\"reason\""));
 }
 
 /// The error bars of the pressure that decides of the option that is taken; empty where none is known.
@@ -173,9 +179,14 @@ std::string comfortBar(const Study& s, const Comparison& c) {
     const ComfortNumbers* k = s.variants[i].part != BarPart::none ? c.runs[i].leastComfortable() : nullptr;
     all += k != nullptr, worse += k && (k->light == "amber" || k->light == "red");
   }
+  std::vector<std::string> whose;
+  for (const Budget& b : c.budgets)
+    if (const std::string name = memberName(s, c, b.reference);
+        !name.empty() && std::find(whose.begin(), whose.end(), name) == whose.end())
+      whose.push_back(name);
   if (worse > 0)
-    text += fmt::format(" Of the {} runs that tell the error bars {} {} a part of the body that is amber or red.", all,
-                        worse, worse == 1 ? "has" : "have");
+    text += fmt::format(" Of the {} runs{} that tell the error bars {} {} a part of the body that is amber or red.",
+                        all, whose.empty() ? "" : " of " + schema::joined(whose), worse, worse == 1 ? "has" : "have");
   return text;
 }
 

@@ -50,9 +50,17 @@ JointNumbers joint(const std::string& name, const std::string& label, double nat
   for (int w = 0; w < 200; ++w) j.torque_Nm.push_back(peak_Nm * std::pow(std::sin(M_PI * (0.005 + 0.01 * w)), 3));
   j.peak_Nm = *std::max_element(j.torque_Nm.begin(), j.torque_Nm.end());
   j.peak_time_s = 0.505;
+  j.cause = "swing (60 % of the stride)";
   j.rms_Nm = rms(j.torque_Nm);
   return j;
 }
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++n;
+  return n;
+}
+bool has(const std::string& text, const std::string& part) { return count(text, part) > 0; }
 
 /// Natural moments go with the body's mass.
 double natural(const std::string& manikin) { return manikin == "male_p95" ? 66 : manikin == "female_p5" ? 34 : 55; }
@@ -190,6 +198,12 @@ TEST(VerdictPages, EachSaysWhatItsRunsHold) {
     EXPECT_EQ(page.find("not judged</span>") != std::string::npos, trustOf(c.input).spoiling > 0);
     EXPECT_EQ(page.find("<th>left elbow (flexion)"), std::string::npos);
     EXPECT_EQ(page.find("left elbow (flexion):"), std::string::npos);
+    // What is taken pays when and why; what to change says what was not asked; doubt stands apart in the sentence.
+    const bool told = c.verdict.take >= 0 && trustOf(c.input).spoiling == 0;
+    EXPECT_EQ(has(page, "during swing ("), told);
+    EXPECT_EQ(has(page, "What to change"), c.verdict.chosen && c.verdict.take >= 0 && c.input.role != Role::model);
+    EXPECT_EQ(has(page, "class=\"doubted\""),
+              !c.verdict.doubt.empty() && has(c.verdict.sentence, c.verdict.doubt.c_str()));
     // Nothing is green that stands on runs in doubt.
     if (!trustOf(c.input).whole()) {
       EXPECT_EQ(page.find("class=\"judged green\""), std::string::npos);
@@ -267,14 +281,6 @@ std::string pageOf(const Story& story) {
   const Study s = studyOf(story);
   return studyPage(s, compared(s, story), {}, {});
 }
-
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t n = 0;
-  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++n;
-  return n;
-}
-
-bool has(const std::string& text, const std::string& part) { return count(text, part) > 0; }
 
 /// The stretch of the verdict is that of the table, and so is its limit.
 TEST(VerdictPages, StretchHasOneValueAndOneLimit) {
