@@ -56,7 +56,7 @@ caption { text-align:left; font-weight:600; padding-bottom:6px; } caption span {
 th, td { text-align:left; padding:6px 12px 6px 0; border-bottom:1px solid var(--line); vertical-align:top; }
 thead th { font-weight:600; color:var(--soft); font-size:.88rem; border-bottom-color:#aab1bd; }
 th[scope=row] { font-weight:500; } td.number, th.number { text-align:right; font-variant-numeric:tabular-nums; white-space:nowrap; } thead th.number { white-space:normal; }
-.pictures { display:grid; grid-template-columns:repeat(auto-fit,minmax(min(100%,430px),1fr)); gap:16px; margin-top:14px; align-items:start; }
+.pictures { display:grid; grid-template-columns:repeat(auto-fit,minmax(min(100%,300px),1fr)); gap:16px; margin-top:14px; align-items:start; }
 .pictures figure { margin:0; background:var(--paper); border:1px solid var(--line); border-radius:10px; overflow:hidden; }
 .pictures img { display:block; width:100%; height:auto; } .pictures figcaption { padding:10px 16px 14px; font-size:.95rem; }
 .charts > figure.chart:only-child { max-width:640px; } .charts.single { grid-template-columns:minmax(0,1fr); }

@@ -14,6 +14,7 @@ import shutil
 import sys
 import time
 
+import population
 from common import HERE, SKIPPED, SOURCE, Folder, check, run
 from slurm_node import SlurmNode, missing
 from study import contents
@@ -179,6 +180,22 @@ def batch(node, folder):
         check((folder / "batch_local" / name).read_bytes() == (out / name).read_bytes(), f"{name} of the batch differs")
 
 
+def wearers(node, folder):
+    """A population: its wearers are the tasks, and the job that compares answers for all."""
+    file = population.study(folder)
+    done = run("study", file, "--out", folder / "wearers_local", "--jobs", 2, "--threads", 2)
+    check(done.returncode == 0, f"{done.stdout} {done.stderr}")
+    out = folder / "wearers_slurm"
+    written("study", file, "--out", out, "--time", "10")
+    submitted(node, out)
+    ended(node)
+    population.answers(out, 2)
+    local, here = population.contents(folder / "wearers_local"), population.contents(out)
+    check(local.keys() == here.keys(), f"other files: {sorted(local.keys() ^ here.keys())}")
+    other = [name for name in local if local[name] != here[name]]
+    check("population.csv" in local and not other, f"these differ from those of the local engine: {other}")
+
+
 def main():
     lacking = missing()
     if lacking:
@@ -199,7 +216,8 @@ def main():
         if only is None:
             plain(node, file, folder / "plain", whole)
             batch(node, folder)
-            print("plain, batch: good", flush=True)
+            wearers(node, folder)
+            print("plain, batch, wearers of a population: good", flush=True)
         for kind in (scancel, requeue, loss):
             if only not in (None, kind.__name__):
                 continue
