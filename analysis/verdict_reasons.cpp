@@ -83,7 +83,7 @@ std::string whyOf(const VerdictInput& in, const Verdict& v) {
                           ? "the fabric\u2019s stretch, its weight and its inertia, with the friction that these cause"
                       : highest < 0.5 ? "what does not depend on how thick it is"
                                       : nullptr;
-  if (!laws.empty() && cause) say(fmt::format("So most of it comes from {}.", cause));
+  if (!laws.empty() && cause) say(fmt::format("That is nearest to {}; a mixture of the others can look alike.", cause));
   return why;
 }
 
