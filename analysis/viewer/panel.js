@@ -1,6 +1,7 @@
 // What surrounds the picture: playing, colours, views, layers, and what a click found.
 
 const kShownViews = [['front', 'Front'], ['back', 'Back'], ['left', 'Left'], ['right', 'Right'], ['close', 'Close-up']];
+const kToldEvery_ms = 200;
 const capital = text => text.charAt(0).toUpperCase() + text.slice(1);
 
 class Viewer {
@@ -112,7 +113,15 @@ class Viewer {
       event.preventDefault();
       act();
     });
-    new ResizeObserver(() => { this.stage.resize(); this.label(); }).observe(this.canvas);
+    new ResizeObserver(() => { this.stand(); this.stage.resize(); this.label(); }).observe(this.canvas);
+  }
+
+  /// Whole pixels of the picture upon those of the page: between them each frame would be filtered.
+  stand() {
+    const { style } = this.canvas;
+    style.marginTop = '0';
+    const top = this.canvas.getBoundingClientRect().top + window.scrollY;
+    style.marginTop = `${Math.ceil(top) - top}px`;
   }
 
   step(by) {
@@ -175,13 +184,21 @@ class Viewer {
       actor.move(this.stage.playing, this.stage.slow);
       actor.show(this.time, this.fieldOf(actor.run), m_per_N, this.state.forces);
     }
-    const k = this.clockFrame();
-    this.slider.value = k;
-    this.slider.setAttribute('aria-valuetext', `${this.time.toFixed(2)} s`);
-    this.now.textContent = `${this.time.toFixed(2)} s`;
+    this.tell();
+    if (at_once) this.stage.drawNow(); else this.stage.draw();
+  }
+
+  /// The moment, around the picture. Where the browser is slow not with every picture: it would compose far more of the page.
+  tell() {
+    const now = performance.now();
+    if (this.stage.playing && this.stage.slow && now - this.told < kToldEvery_ms) return;
+    this.told = now;
+    const words = `${this.time.toFixed(2)} s`;
+    this.slider.value = this.clockFrame();
+    this.slider.setAttribute('aria-valuetext', words);
+    this.now.textContent = words;
     if (this.plots) this.plots.show(this.time);
     this.read();
-    if (at_once) this.stage.drawNow(); else this.stage.draw();
   }
 
   fieldOf(run) { return run.fields.get(this.state.field) || null; }
