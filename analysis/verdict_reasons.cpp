@@ -144,12 +144,15 @@ std::string comfortOf(const VerdictInput& in, const Verdict& v) {
   const bool alike = alikeEverywhere(in, *c);
   const bool named = !v.chosen && !alike;
   const std::string at_what = (named ? option->name + (c->motion.empty() ? "" : ", ") : "") + c->motion;
-  std::string text = fmt::format("{}: on the {}{} {}.",
+  const std::string when = c->peak_time_s && !(toldByMean(*c) && c->peak_Pa <= c->peak_limit_Pa)
+                               ? fmt::format(", at {:.2f} s", *c->peak_time_s)
+                               : "";
+  std::string text = fmt::format("{}: on the {}{} {}{}.",
                                  c->light == Light::red     ? "Not comfortable"
                                  : c->light == Light::amber ? "Not quite comfortable"
                                  : trustOf(in).whole()      ? "Comfortable"
                                                             : "Comfortable, with doubt",
-                                 c->part, bracketed(at_what), pressureText(*c));
+                                 c->part, bracketed(at_what), pressureText(*c), when);
   if (alike)
     text += fmt::format(" The pressure is the same {} all {} {}.", words.before, in.options.size(), words.many);
   if (in.sensor_m > 0) text += fmt::format(" Pressure is the mean over {:g} mm.", 1e3 * in.sensor_m);

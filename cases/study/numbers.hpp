@@ -50,7 +50,7 @@ struct ZoneNumbers {
 /// Pressure on a part of the body against what the case calls comfortable.
 struct ComfortNumbers {
   std::string zone, light;
-  double mean_Pa = 0, peak_Pa = 0, red_Pa = 0, peak_limit_Pa = 0, dose_kPa_min = 0;
+  double mean_Pa = 0, peak_Pa = 0, red_Pa = 0, peak_limit_Pa = 0, dose_kPa_min = 0, peak_time_s = 0;
   /// Of the limit that is nearest or furthest surpassed: of the mean over time, or of the peak.
   double part_of_limit() const;
 };

@@ -155,6 +155,16 @@ std::string costOf(const Study& s, const Comparison& c, const Option& option, co
               " class=\"reason\""));
 }
 
+/// "thickness x 1": the options whose runs tell the error bars; empty where none has a name.
+std::string barred(const Study& s, const Comparison& c) {
+  std::vector<std::string> names;
+  for (const Budget& b : c.budgets)
+    if (const std::string name = memberName(s, c, b.reference);
+        !name.empty() && std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(name);
+  return names.empty() ? "" : schema::joined(names);
+}
+
 /// The error bars of the pressure that decides of the option that is taken; empty where none is known.
 std::string comfortBar(const Study& s, const Comparison& c) {
   if (c.verdict.take < 0 || c.verdict.comfort.empty()) return "";
@@ -179,14 +189,10 @@ std::string comfortBar(const Study& s, const Comparison& c) {
     const ComfortNumbers* k = s.variants[i].part != BarPart::none ? c.runs[i].leastComfortable() : nullptr;
     all += k != nullptr, worse += k && (k->light == "amber" || k->light == "red");
   }
-  std::vector<std::string> whose;
-  for (const Budget& b : c.budgets)
-    if (const std::string name = memberName(s, c, b.reference);
-        !name.empty() && std::find(whose.begin(), whose.end(), name) == whose.end())
-      whose.push_back(name);
+  const std::string whose = barred(s, c);
   if (worse > 0)
     text += fmt::format(" Of the {} runs{} that tell the error bars {} {} a part of the body that is amber or red.",
-                        all, whose.empty() ? "" : " of " + schema::joined(whose), worse, worse == 1 ? "has" : "have");
+                        all, whose.empty() ? "" : " of " + whose, worse, worse == 1 ? "has" : "have");
   return text;
 }
 
@@ -246,11 +252,40 @@ std::string changesOf(const Study& s, const Comparison& c) {
                                        c.input.options[static_cast<std::size_t>(c.input.baseline)].name);
   if (c.elasticities.empty())
     text +=
-        " Which property of the fabric makes the torque was not asked: \"elasticities\" in the study\u2019s file "
-        "tells.";
+        " Which property of the fabric makes the torque was not asked; \"elasticities\" in the study\u2019s file adds "
+        "the runs that tell.";
   else
     text += " Which property of the fabric makes the torque: see what the torque is made of.";
-  if (!s.optimise) text += " Where the garment should be thick and where thin was not asked: \"optimise\" tells.";
+  if (!s.optimise) text += " Where the garment should be thick and where thin was not asked; \"optimise\" searches.";
+  return text;
+}
+
+/// What would make the answer surer: of the torque whose error bar is widest, and of the fabric where it is stretched
+/// further than it is meant for.
+std::string measuresOf(const Study& s, const Comparison& c) {
+  const BarredNumber* widest = nullptr;
+  std::string text, whose;
+  for (const Budget& b : c.budgets)
+    for (const BarredNumber& n : b.numbers)
+      if (n.what.quantity == Headline::Quantity::peak && n.relative() &&
+          (!widest || *n.relative() > *widest->relative()))
+        widest = &n, whose = settingOf(s, s.variants[b.reference], {});
+  const auto say = [&](const std::string& sentence) { text += (text.empty() ? "" : " ") + sentence; };
+  if (const auto& k = c.input.stretch) {
+    const double known = k->stated ? c.input.law_strain : k->limit;
+    if (known > 0 && k->largest > known)
+      say(fmt::format(
+          "Pull the fabric in a test up to {:.0f} % of stretch: the numbers that the runs have of it hold up "
+          "to {:g} %.",
+          std::ceil(100 * k->largest), 100 * known));
+  }
+  if (widest) {
+    say(fmt::format("Least sure of the peak torques: {}{}.", widest->what.label, whose.empty() ? "" : ", " + whose));
+    for (const std::string& sentence : adviceOf(s, *widest)) say(sentence);
+  } else if (c.input.role != Role::model) {
+    say("How far the torque depends on what is known of the fabric was not asked; \"uncertainty\" in the study\u2019s "
+        "file adds the runs that tell.");
+  }
   return text;
 }
 
@@ -269,6 +304,8 @@ std::string meaningOf(const Study& s, const Comparison& c) {
   else
     text += "No natural moment of this task is known: torques have no light, and the lights are those of comfort. ";
   text +=
+      "Comfort: green where the mean pressure over time is at most the comfortable one, amber between that and its "
+      "limit, red above, or where the peak is above the limit of peaks (suggestions too; a case sets its own). "
       "Doubtful: green by its number, but a check of a run fails, or the fabric stretches further than it is meant "
       "for. Not judged: a check fails that leaves none of the numbers.";
   return element("h3", "What the words mean", " class=\"words-mean\"") +
@@ -312,6 +349,9 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
   std::string doubts;
   for (const auto& d : c.input.doubts)
     doubts += element("li", prose(fmt::format("{}, {}", d.check, placeOf(d.runs, c.input))));
+  const std::string whose = barred(s, c);
+  const std::string carried =
+      whose.empty() ? "" : fmt::format(" It was found with {}; the others have it in per cent.", whose);
   const char* surety[]{"not sure", "fairly sure", "sure"};
   const std::string cards =
       card(v.chosen && v.light != Light::red ? "Why this one" : "How they differ", v.why) +
@@ -322,11 +362,13 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
                                                      : "The worst",
                        surety[static_cast<int>(v.surety)]),
            v.choice) +
-      card(c.input.error() ? fmt::format("How much: \u00b1 {}", percent(c.input.error()))
-                           : std::string("How much: no error bar"),
-           v.numbers,
-           (c.budgets.empty() ? "" : element("p", "<a href=\"#sure\">What that is made of</a>")) +
-               (doubts.empty() ? "" : element("ul", doubts) + element("p", "<a href=\"#checks\">What that means</a>")));
+      card(
+          c.input.error() ? fmt::format("How much: \u00b1 {}", percent(c.input.error()))
+                          : std::string("How much: no error bar"),
+          v.numbers + carried,
+          (c.budgets.empty() ? "" : element("p", "<a href=\"#sure\">What that is made of</a>")) +
+              (doubts.empty() ? "" : element("ul", doubts) + element("p", "<a href=\"#checks\">What that means</a>"))) +
+      card("What to measure", measuresOf(s, c));
   return element("section", body + meaning,
                  shown ? " class=\"headline pictured\" aria-label=\"The verdict\""
                        : " class=\"headline\" aria-label=\"The verdict\"") +

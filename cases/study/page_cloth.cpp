@@ -76,7 +76,7 @@ std::string forcesOf(const Study& s, const Comparison& c) {
       if (const ComfortNumbers* k = r.leastComfortable())
         comfort.push_back({label, lightOf(lightNamed(k->light), r.trust()), escape(spokenZone(k->zone)),
                            Html(1e-3 * k->mean_Pa), Html(1e-3 * k->red_Pa), Html(1e-3 * k->peak_Pa),
-                           Html(1e-3 * k->peak_limit_Pa), Html(k->dose_kPa_min)});
+                           Html(html::seconds(k->peak_time_s)), Html(1e-3 * k->peak_limit_Pa), Html(k->dose_kPa_min)});
       const double all = r.pressing_N();
       if (!zones.empty()) {
         std::vector<Html> row{label, Html(all)};
@@ -99,12 +99,13 @@ std::string forcesOf(const Study& s, const Comparison& c) {
   if (!comfort.empty())
     out += htmlTable(
         "Comfort: the part of the body that is furthest from comfortable",
-        {"variant", "verdict", "part", "mean [kPa]", "limit [kPa]", "peak [kPa]", "limit of peaks [kPa]",
+        {"variant", "verdict", "part", "mean [kPa]", "limit [kPa]", "peak [kPa]", "peak at", "limit of peaks [kPa]",
          "dose [kPa min]"},
         comfort,
         pressureOf(c) +
-            ", where it is largest, against the limits of the case: red where the mean over "
-            "time or the peak is above its limit. Each variant\u2019s own report has all parts, and pictures.");
+            ", where it is largest, against the limits of the case: red where the mean over time or the peak is above "
+            "its limit, amber where the mean is above a lower one. Dose: the mean over the hours that the garment is "
+            "worn. Each variant\u2019s own report has all parts, and pictures.");
   if (!shares.empty())
     out += htmlTable("Which parts of the body bear the garment", columns, shares,
                      "Shares of the mean force that presses, both sides together, without belt and edges on springs. "

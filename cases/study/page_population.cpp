@@ -29,6 +29,7 @@ std::string whole(double part) { return fmt::format("{:.0f}", 100 * part); }
 /// "22 of 24: 92 % (of all people 74 to 98 %)"
 std::string shareText(const PopulationShare& p) {
   if (p.of() == 0) return "not known of anyone";
+  if (!p.touched) return "as without the garment, which touches nothing beyond it";
   const ShareInterval i = p.interval();
   std::string text = fmt::format("{} of {}: {} % (between {} and {} % of all people)", p.yes, p.of(),
                                  whole(static_cast<double>(p.yes) / p.of()), whole(i.low), whole(i.high));

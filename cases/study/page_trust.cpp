@@ -107,7 +107,7 @@ std::string leftOutOf(const Study& s, const Comparison& c) {
     if (c.elasticities.empty())
       out += element("li",
                      "What the torque is made of (bending, membrane, weight, inertia, drag) was not asked: "
-                     "\"elasticities\" adds the runs that tell.");
+                     "\"elasticities\" in the study\u2019s file adds the runs that tell.");
     const bool stood = std::any_of(c.runs.begin(), c.runs.end(), [](const RunNumbers& r) {
       return std::any_of(r.joints.begin(), r.joints.end(), [](const auto& j) { return j.standing_Nm.has_value(); });
     });

@@ -85,12 +85,14 @@ void addShares(const PopulationAnswer& a, std::vector<PopulationShare>& shares) 
   for (std::size_t k = 0; k < kBurdened.size(); ++k) {
     PopulationShare share{fmt::format("{} stays green", kBurdened[k])};
     bool looked = false;
+    share.touched = false;
     for (const WearerAnswer& w : a.wearers) {
       if (!w.taken() || !w.taken()->on()) {
         ++share.unknown;
         continue;
       }
       looked = looked || w.taken()->burdens[k].looked;
+      share.touched = share.touched || w.taken()->burdens[k].touched;
       count(w.taken()->burdens[k].light, share);
     }
     if (looked) shares.push_back(share);
@@ -122,9 +124,9 @@ std::vector<std::size_t> burdenedMost(const PopulationAnswer& a) {
 
 std::string answerSentence(const PopulationAnswer& a) {
   const PopulationShare& on = a.shares[0];
-  std::string green;
+  std::string green;  // that a joint is spared which the garment does not reach is no news
   for (const PopulationShare& s : a.shares)
-    if (s.what.ends_with("stays green") && s.of() > 0)
+    if (s.what.ends_with("stays green") && s.of() > 0 && s.touched)
       green += fmt::format("{}{} their {}s", green.empty() ? "" : ", ", s.yes, s.what.substr(0, s.what.find(' ')));
   return fmt::format("{} of {} wearers can put it on{}.", on.yes, on.of(),
                      green.empty() ? "" : "; of these keep green: " + green);

@@ -56,6 +56,7 @@ struct PopulationShare {
   int yes = 0;       ///< by the number
   int doubtful = 0;  ///< of them those whose run has a check that fails
   int no = 0, unknown = 0;
+  bool touched = true;  ///< of a joint: the garment touches something beyond it, on someone
   int of() const { return yes + no; }
   ShareInterval interval() const { return wilsonInterval(yes, of()); }
 };

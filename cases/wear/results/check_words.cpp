@@ -53,7 +53,7 @@ CheckWords checkWords(const std::string& check, double value, double limit, cons
     return {fmt::format("between its contact points the cloth dips up to {} into the skin", much),
             "Forces act at the contact points, which stay outside, so that no force is missing; but the cloth lies "
             "this much too near to the body, which counts where it is as much as the cloth is thick. Finer cells or "
-            "more samples_per_cell lessen it.",
+            "more contact points in each (\u201csamples_per_cell\u201d of the garment) lessen it.",
             false};
   if (check == "Seams")
     return {fmt::format("seams gape by up to {} of a cell", much),

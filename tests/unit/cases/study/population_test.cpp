@@ -204,6 +204,10 @@ TEST(StudyPopulation, SharesCountWhoIsSpared) {
   EXPECT_EQ(a.shares[1].doubtful, *runs[2].joints[0].part() < 0.05 ? 1 : 0);
   EXPECT_EQ(a.shares[2].what, "elbow stays green");
   EXPECT_EQ(a.shares[2].yes, 3);
+  // What no garment reaches is spared, and no news.
+  EXPECT_TRUE(a.shares[1].touched);
+  EXPECT_FALSE(a.shares[2].touched);
+  EXPECT_EQ(a.sentence.find("elbow"), std::string::npos) << a.sentence;
   EXPECT_EQ(a.shares[3].yes, comfortable);
   // First whom it does not go on, then the heaviest; who has no run cannot be pictured.
   ASSERT_EQ(a.worst.size(), 3u);

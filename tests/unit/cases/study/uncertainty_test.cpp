@@ -105,6 +105,25 @@ TEST(Uncertainty, BarsAreThoseOfTheClosedForm) {
   EXPECT_NE(advice[2].find("measure the bending rigidity better"), std::string::npos) << advice[2];
 }
 
+/// The page says what to measure of the torque that is least sure, and whose the runs behind the bars are.
+TEST(Uncertainty, ThePageSaysWhatToMeasure) {
+  const Study s = read(unsure);
+  std::vector<RunNumbers> runs = numbersOf(s);
+  int spoiled = 0;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    runs[i].comfort = {{"thigh_left", "green", 900, 3000, 4270, 9810, 27, 0.62}};
+    if (s.variants[i].part == BarPart::fabric && spoiled < 3) ++spoiled, runs[i].comfort[0].light = "red";
+  }
+  const std::string page = studyPage(s, compare(s, runs), {}, {});
+  const auto has = [&](const std::string& text) { return page.find(text) != std::string::npos; };
+  EXPECT_TRUE(has("What to measure"));
+  EXPECT_TRUE(has("measure the bending rigidity better"));
+  EXPECT_TRUE(has("It was found with thickness x 1; the others have it in per cent."));
+  EXPECT_TRUE(
+      has("Of the 28 runs of thickness x 1 that tell the error bars 3 have a part of the body that is amber or "
+          "red."));
+}
+
 /// The samples are no elasticities, no options and no members of a group.
 TEST(Uncertainty, ItsRunsAreNoVariantsToCompare) {
   const Study s = read(unsure);
