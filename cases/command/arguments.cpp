@@ -12,6 +12,10 @@ void addOverrides(CLI::App& command, std::vector<std::string>& overrides) {
       ->allow_extra_args(false);
 }
 
+void addThreads(CLI::App& command, int& threads, const std::string& words) {
+  command.add_option("--threads", threads, words)->type_name("N")->check(CLI::Range(0, 4096).description(""));
+}
+
 void addDevice(CLI::App& command, std::string& device) {
   command
       .add_option(
@@ -42,11 +46,8 @@ void addRun(CLI::App& app, RunArguments& a) {
          "--out", a.options.out,
          "Folder for the results; an earlier run's results there are replaced [results/<name of the case file>]")
       ->type_name("DIR");
-  run.add_option(
-         "--threads", a.options.threads,
-         "Threads, 0 for OMP_NUM_THREADS or else as many as the machine has [0]. The results do not depend on it")
-      ->type_name("N")
-      ->check(CLI::Range(0, 4096).description(""));
+  addThreads(run, a.options.threads,
+             "Threads, 0 for OMP_NUM_THREADS or else as many as the machine has [0]. The results do not depend on it");
   run.add_flag("--resume", a.options.resume,
                "Continues an interrupted run of the same case, in the same folder, from its last checkpoint; of cuda "
                "also under reference, and the other way round");
@@ -76,12 +77,8 @@ void addDress(CLI::App& app, DressArguments& a) {
       *app.add_subcommand("dress", "Puts the garments of a case on its human, for many runs to start from");
   command.add_option("CASE", a.file, "Case file (JSON)")->type_name("")->required();
   command.add_option("-o,--output", a.output, "Dressed state to write (JSON)")->type_name("FILE")->required();
-  command
-      .add_option(
-          "--threads", a.threads,
-          "Threads, 0 for OMP_NUM_THREADS or else as many as the machine has [0]. The state does not depend on it")
-      ->type_name("N")
-      ->check(CLI::Range(0, 4096).description(""));
+  addThreads(command, a.threads,
+             "Threads, 0 for OMP_NUM_THREADS or else as many as the machine has [0]. The state does not depend on it");
   addOverrides(command, a.overrides);
   command.footer(
       "Examples:\n"

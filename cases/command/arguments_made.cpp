@@ -204,11 +204,7 @@ void addHomogenise(CLI::App& app, HomogeniseArguments& a) {
                    "Takes the bending rigidity of the cell at rest for all strains, in place of one by strain");
   command.add_flag("--shrink", a.shrink,
                    "Makes the range smaller where a load has no stable equilibrium, in place of ending there");
-  command
-      .add_option("--threads", a.threads, "Threads, 0 for as many as the machine has; the law does not depend on it")
-      ->type_name("N")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 4096).description(""));
+  addThreads(command, a.threads, "Threads, 0 for as many as the machine has [0]; the law does not depend on it");
   command.footer(
       "Nodes are added where cells solved between them differ most from the table, until the errors wanted hold. "
       "Friction between\nyarns is left out: an energy has none.\n\n"

@@ -59,11 +59,7 @@ static void addParallel(CLI::App& command, Options& o, const std::string& elsewh
   command.add_option("--jobs", o.jobs, "Runs at a time; 0 for as many as there are threads" + elsewhere + " [0]")
       ->type_name("N")
       ->check(CLI::Range(0, 4096).description(""));
-  command
-      .add_option("--threads", o.threads,
-                  "Threads of all runs together, 0 for as many as the machine has" + each + " [0]")
-      ->type_name("N")
-      ->check(CLI::Range(0, 4096).description(""));
+  addThreads(command, o.threads, "Threads of all runs together, 0 for as many as the machine has" + each + " [0]");
 }
 
 static void addJobs(CLI::App& command, study::Options& o) {
