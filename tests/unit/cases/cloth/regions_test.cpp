@@ -25,7 +25,7 @@ Garment twoSquares() {
 
 TEST(Regions, FactorsLieWhereTheirPartsAre) {
   Garment g = twoSquares();
-  applyRegions({{"low", {{"left", {0, 1}, {0, 0.25}}, {"right", {0, 0.5}, {0, 0.25}}}, 2},
+  applyRegions({{"low", {{"left", {0, 1}, {0, 0.25}}, {"right", {0.5, 1}, {0.25, 0.5}}}, 2},
                 {"high", {{"left", {0, 1}, {0.6, 1}}}, 0.5}},
                g);
   const auto factor = [&](int patch, Vec2 uv) { return surfaceDensityAt(g, patch, uv) / 0.5; };
@@ -33,9 +33,10 @@ TEST(Regions, FactorsLieWhereTheirPartsAre) {
   EXPECT_DOUBLE_EQ(factor(0, {0.1, 0.3}), 1);  // between regions
   EXPECT_DOUBLE_EQ(factor(0, {0.9, 0.59}), 1);
   EXPECT_DOUBLE_EQ(factor(0, {0.9, 0.61}), 0.5);
-  EXPECT_DOUBLE_EQ(factor(1, {0.49, 0.2}), 2);
-  EXPECT_DOUBLE_EQ(factor(1, {0.51, 0.2}), 1);
-  EXPECT_DOUBLE_EQ(factor(1, {0.4, 0.9}), 1);
+  EXPECT_DOUBLE_EQ(factor(1, {0.51, 0.49}), 2);  // of 2 x 4 cells one, and none that lies the other way round
+  EXPECT_DOUBLE_EQ(factor(1, {0.99, 0.26}), 2);
+  for (const Vec2 beside : {Vec2{0.49, 0.4}, Vec2{0.6, 0.24}, Vec2{0.6, 0.51}, Vec2{0.4, 0.9}, Vec2{0.9, 0.7}})
+    EXPECT_DOUBLE_EQ(factor(1, beside), 1);
 }
 
 TEST(Regions, WithoutPartsTheyAreTheWholeGarment) {
