@@ -18,7 +18,7 @@ h3 { font-size:1rem; margin:0 0 8px; }
 .headline { display:grid; grid-template-columns:minmax(0,1fr); gap:24px; margin:20px 0 0; background:var(--paper); border:1px solid var(--line); border-radius:14px; overflow:hidden; }
 .headline .words { padding:26px 28px; }
 .headline .sentence { font-size:1.5rem; line-height:1.3; margin:0 0 18px; font-weight:600; text-wrap:pretty; } .headline .doubted { font-size:1.05rem; font-weight:500; }
-.headline img { width:100%; height:auto; max-height:640px; object-fit:contain; display:block; background:#f9fafa; }
+.headline img { width:100%; height:auto; max-height:720px; object-fit:contain; display:block; background:#f9fafa; }
 .headline figure { margin:0; } .headline > .meaning { grid-column:1 / -1; margin:-24px 28px 24px; }
 .headline figcaption { padding:6px 16px 12px; font-size:.9rem; color:var(--soft); }
 dl.answers { display:grid; grid-template-columns:max-content minmax(0,1fr); gap:7px 18px; margin:0; }
@@ -76,7 +76,7 @@ details { margin-top:14px; } summary { cursor:pointer; color:var(--accent); font
 .good, .bad { font-weight:700; white-space:nowrap; } .good { color:var(--good); } .bad { color:var(--bad); }
 ul.assumptions { margin:10px 0 0; padding-left:22px; columns:2 420px; column-gap:36px; } ul.assumptions li { break-inside:avoid; margin-bottom:6px; }
 footer { color:var(--soft); font-size:.9rem; padding:36px 0 48px; }
-@media (min-width:900px) { .headline.pictured { grid-template-columns:minmax(0,1fr) minmax(0,1fr); } .headline.pictured figure { display:flex; flex-direction:column; justify-content:center; background:#f9fafa; border-left:1px solid var(--line); border-bottom:1px solid var(--line); } .headline > .meaning { border-top:0; padding-top:0; margin-top:0; } .headline > .meaning + .meaning { margin-top:-18px; } }
+@media (min-width:900px) { .headline.pictured { grid-template-columns:minmax(0,1fr) minmax(0,1fr); } .headline.pictured figure { display:flex; flex-direction:column; justify-content:flex-start; background:#f9fafa; border-left:1px solid var(--line); border-bottom:1px solid var(--line); } .headline > .meaning { border-top:0; padding-top:0; margin-top:0; } .headline > .meaning + .meaning { margin-top:-18px; } }
 @media (max-width:560px) { main, header.page { padding-left:12px; padding-right:12px; } .headline .words { padding:18px 16px; } .headline .sentence { font-size:1.25rem; } dl.answers { grid-template-columns:minmax(0,1fr); gap:0; } dl.answers dd { margin-bottom:8px; } figure.chart, .panel { padding:12px 10px; } }
 @media print { @page { margin:11mm 12mm; } html { font-size:10px; } body { background:#fff; font-size:1rem; line-height:1.4; } main, header.page { max-width:none; padding-left:0; padding-right:0; } header.page, header.page + main { padding-top:0; }
   h2 { break-after:avoid; margin-top:12px; } h2 + p { break-inside:avoid; break-after:avoid; } h3 { margin-bottom:2px; } figure, .card, .panel, .headline, tr { break-inside:avoid; }
