@@ -26,7 +26,8 @@ namespace fs = std::filesystem;
 constexpr std::array kFiles{"case.json",      "run.json",     "summary.json", "torques.csv", "contact.csv",
                             "collisions.csv", "latitude.csv", "stress.csv",   "zones.csv",   "patches.csv",
                             "straps.csv",     "path.csv",     "shape.csv",    "report.html", "dressed.json",
-                            "energy.csv",     "memory.csv",   "curves.csv",   kFilmFile};
+                            "energy.csv",     "memory.csv",   "curves.csv",   "pressures.csv",
+                            kFilmFile};
 constexpr const char* kPictures = "snapshots";
 /// What stays when these and the recording's layout are gone, as a run begins that replaces an earlier one.
 constexpr std::array kBegun{"frames",         "frames.xdmf", kPictures,    kEuropeanTables,

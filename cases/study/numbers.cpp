@@ -96,32 +96,53 @@ std::optional<int> crossingsDressed(const Json& windows) {
   return end < 0 || crossings < 0 ? std::nullopt : found;
 }
 
-void readCurves(const std::filesystem::path& csv, RunNumbers& run) {
-  std::ifstream stream(csv);
-  std::string line;
-  if (!std::getline(stream, line)) throw RunError(csv.string() + " cannot be read");
-  std::vector<JointNumbers*> column;
-  for (const std::string& name : csvCells(line)) {
-    column.push_back(nullptr);
-    for (JointNumbers& j : run.joints)
-      if (name == j.name + (j.prismatic ? "_N" : "_Nm")) column.back() = &j;
-  }
-  while (std::getline(stream, line)) {
-    const std::vector<std::string> row = csvCells(line);
-    for (std::size_t c = 0; c < row.size() && c < column.size(); ++c) {
-      double value = 0;
-      const auto [end, error] = std::from_chars(row[c].data(), row[c].data() + row[c].size(), value);
-      if (error != std::errc() || end != row[c].data() + row[c].size())
-        throw RunError(fmt::format("{}: \"{}\" is no number", csv.string(), row[c]));
-      if (c == 0)
-        run.time_s.push_back(value);
-      else if (column[c])
-        column[c]->torque_Nm.push_back(value);
+/// A table of numbers over time; the first column is the time.
+struct Curves {
+  std::string file;
+  std::vector<std::string> columns;
+  std::vector<std::vector<double>> values;  ///< [column]
+
+  explicit Curves(const std::filesystem::path& csv) : file(csv.string()) {
+    std::ifstream stream(csv);
+    std::string line;
+    if (!std::getline(stream, line)) throw RunError(file + " cannot be read");
+    columns = csvCells(line);
+    values.resize(columns.size());
+    while (std::getline(stream, line)) {
+      const std::vector<std::string> row = csvCells(line);
+      if (row.size() != columns.size())
+        throw RunError(file + " has not one value per time of every column");
+      for (std::size_t c = 0; c < row.size(); ++c) {
+        double value = 0;
+        const auto [end, error] = std::from_chars(row[c].data(), row[c].data() + row[c].size(), value);
+        if (error != std::errc() || end != row[c].data() + row[c].size())
+          throw RunError(fmt::format("{}: \"{}\" is no number", file, row[c]));
+        values[c].push_back(value);
+      }
     }
+    if (columns.empty() || columns[0] != "time_s") throw RunError(file + " does not begin with time_s");
   }
-  for (const JointNumbers& j : run.joints)
-    if (j.torque_Nm.size() != run.time_s.size())
-      throw RunError(fmt::format("{} has not one value per time of {}", csv.string(), j.name));
+
+  const std::vector<double>& of(const std::string& column) const {
+    const auto at = std::find(columns.begin(), columns.end(), column);
+    if (at == columns.end()) throw RunError(file + " has no column " + column);
+    return values[static_cast<std::size_t>(at - columns.begin())];
+  }
+};
+
+void readTorques(const std::filesystem::path& csv, RunNumbers& run) {
+  const Curves curves(csv);
+  run.time_s = curves.values[0];
+  for (JointNumbers& j : run.joints) j.torque_Nm = curves.of(j.name + (j.prismatic ? "_N" : "_Nm"));
+}
+
+void readPressures(const std::filesystem::path& csv, RunNumbers& run) {
+  const Curves curves(csv);
+  run.pressure_time_s = curves.values[0];
+  for (ComfortNumbers& c : run.comfort) {
+    c.largest_Pa = curves.of(c.zone + "_largest_Pa");
+    c.mean_so_far_Pa = curves.of(c.zone + "_mean_so_far_Pa");
+  }
 }
 
 }  // namespace
@@ -207,6 +228,12 @@ const JointNumbers* RunNumbers::joint(const std::string& name) const {
   return nullptr;
 }
 
+const ComfortNumbers* RunNumbers::comfortOf(const std::string& zone) const {
+  for (const ComfortNumbers& c : comfort)
+    if (c.zone == zone) return &c;
+  return nullptr;
+}
+
 const ComfortNumbers* RunNumbers::leastComfortable() const {
   const auto rank = [](const ComfortNumbers& c) { return c.light == "red" ? 2 : c.light == "amber" ? 1 : 0; };
   const ComfortNumbers* worst = nullptr;
@@ -266,7 +293,8 @@ RunNumbers readRun(const std::filesystem::path& folder) {
     for (const Json& c : j.at("audit").list())
       run.checks.push_back({c.at("check").text(), c.at("value").is_number() ? c.at("value").number() : std::nan(""),
                             c.at("limit").number(), c.at("unit").text(), c.at("holds").flag()});
-    if (!run.joints.empty()) readCurves(folder / "torques.csv", run);
+    if (!run.joints.empty()) readTorques(folder / "torques.csv", run);
+    if (!run.comfort.empty()) readPressures(folder / "pressures.csv", run);
     run.good = true;
   } catch (const Json::Error& e) {
     run = {};

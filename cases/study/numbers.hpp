@@ -51,6 +51,8 @@ struct ZoneNumbers {
 struct ComfortNumbers {
   std::string zone, light;
   double mean_Pa = 0, peak_Pa = 0, red_Pa = 0, peak_limit_Pa = 0, dose_kPa_min = 0, peak_time_s = 0;
+  /// Over RunNumbers::pressure_time_s, as pressures.csv has them.
+  std::vector<double> largest_Pa{}, mean_so_far_Pa{};
   /// Of the limit that is nearest or furthest surpassed: of the mean over time, or of the peak.
   double part_of_limit() const;
 };
@@ -75,7 +77,7 @@ struct RunNumbers {
   int control_points = 0;
   std::vector<GarmentNumbers> garments;
   std::vector<JointNumbers> joints;
-  std::vector<double> time_s;
+  std::vector<double> time_s, pressure_time_s;  ///< of torques and of pressures
   std::vector<ContactNumbers> contact;
   std::vector<ZoneNumbers> zones;
   std::vector<ComfortNumbers> comfort;
@@ -101,12 +103,13 @@ struct RunNumbers {
   /// The joint that decides: of the largest part of its natural moment, or of the largest torque where none is known.
   const JointNumbers* decisive() const;
   const JointNumbers* joint(const std::string& name) const;
+  const ComfortNumbers* comfortOf(const std::string& zone) const;
   /// The part of the body that is furthest from comfortable, null where nothing presses on one.
   const ComfortNumbers* leastComfortable() const;
   double pressing_N() const;  ///< of all zones
 };
 
-/// Reads summary.json and torques.csv of a run's folder; a run of a structure has no joints. What cannot be read makes
+/// Reads summary.json, torques.csv and pressures.csv of a run's folder; a run of a structure has no joints. What cannot be read makes
 /// the run not good, with its reason.
 RunNumbers readRun(const std::filesystem::path& folder);
 

@@ -73,7 +73,8 @@ std::string partsTable(const Study& s, const Comparison& c) {
                    "finer cells, by Roache\u2019s grid "
                    "convergence index (order 2, safety 1.25), of the peaks or of the whole courses, whichever differ "
                    "more. Step: the "
-                   "same from half of every step (order 1). Fabric: twice the standard deviation. A dash: not known.");
+                   "same from half of every step (order 1), until that run ends. Fabric: twice the standard "
+                   "deviation. A dash: not known.");
 }
 
 std::string fabricTable(const Study& s, const Comparison& c) {
@@ -125,15 +126,13 @@ std::string notesOf(const Study& s, const Comparison& c) {
   if (!asked.step) say("The study does not ask for the error of the time step.");
   for (const Budget& b : c.budgets) {
     const std::string where = settingOf(s, b).empty() ? "" : settingOf(s, b) + ": ";
-    if (!b.no_step.empty()) say(fmt::format("{}no bar of the step for some torques: {}.", where, b.no_step));
+    if (!b.no_step.empty()) say(fmt::format("{}no bar of the step for some numbers: {}.", where, b.no_step));
     if (!b.no_fabric.empty()) say(fmt::format("{}no bar of the fabric: {}.", where, b.no_fabric));
     if (b.failed > 0 && b.no_fabric.empty())
       say(fmt::format("{}{} of {} samples failed and are left out.", where, b.failed, b.failed + b.samples));
     if (b.mesh_taken_over)
       say(where + "the bar of the mesh is that of the runs that have a finer one beside them, in per cent.");
   }
-  say("Pressures have no bar of the step: they are means and peaks of whole runs, and the run with half steps is "
-      "shorter.");
   say("Not in the bars: what the model leaves out, such as how the body gives way, and how this wearer moves.");
   return element("ul", list, " class=\"assumptions\"");
 }

@@ -21,9 +21,9 @@ std::optional<double> Headline::in(const RunNumbers& run) const {
     if (!j) return {};
     return quantity == Quantity::peak ? std::abs(j->peak_Nm) : j->rms_Nm;
   }
-  for (const ComfortNumbers& c : run.comfort)
-    if (c.zone == of) return quantity == Quantity::mean_pressure ? c.mean_Pa : c.peak_Pa;
-  return {};
+  const ComfortNumbers* c = run.comfortOf(of);
+  if (!c) return {};
+  return quantity == Quantity::mean_pressure ? c->mean_Pa : c->peak_Pa;
 }
 
 std::optional<double> BarredNumber::relative() const {
@@ -33,22 +33,44 @@ std::optional<double> BarredNumber::relative() const {
 
 double CourseDifference::larger() const { return std::max(peak, rms); }
 
+namespace {
+
+constexpr double kSameTime_s = 1e-9;
+
+/// Numbers over time.
+struct Course {
+  const std::vector<double>&time_s, &value;
+
+  /// The largest size from `from_s` to `to_s` on.
+  double largest(double from_s, double to_s) const {
+    double most = 0;
+    for (std::size_t i = 0; i < time_s.size() && time_s[i] <= to_s; ++i)
+      if (time_s[i] >= from_s) most = std::max(most, std::abs(value[i]));
+    return most;
+  }
+};
+
+std::optional<CourseDifference> differenceOf(const Course& a, const Course& b, double from_s, double to_s) {
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < a.time_s.size() && a.time_s[i] <= to_s; ++i) {
+    if (a.time_s[i] < from_s) continue;
+    if (i >= b.time_s.size() || std::abs(b.time_s[i] - a.time_s[i]) > kSameTime_s) return {};
+    sum += (a.value[i] - b.value[i]) * (a.value[i] - b.value[i]);
+    ++count;
+  }
+  const double peak_a = a.largest(from_s, to_s), peak_b = b.largest(from_s, to_s);
+  if (!(peak_a > 0)) return {};
+  return CourseDifference{std::abs(peak_a - peak_b) / peak_a, std::sqrt(sum / count) / peak_a};
+}
+
+}  // namespace
+
 std::optional<CourseDifference> differenceOf(const RunNumbers& first, const RunNumbers& second,
                                              const std::string& joint, double from_s, double to_s) {
   const JointNumbers *a = first.joint(joint), *b = second.joint(joint);
   if (!a || !b) return {};
-  double peak_a = 0, peak_b = 0, sum = 0;
-  int count = 0;
-  for (std::size_t i = 0; i < first.time_s.size() && first.time_s[i] <= to_s; ++i) {
-    if (first.time_s[i] < from_s) continue;
-    if (i >= second.time_s.size() || std::abs(second.time_s[i] - first.time_s[i]) > 1e-9) return {};
-    peak_a = std::max(peak_a, std::abs(a->torque_Nm[i]));
-    peak_b = std::max(peak_b, std::abs(b->torque_Nm[i]));
-    sum += (a->torque_Nm[i] - b->torque_Nm[i]) * (a->torque_Nm[i] - b->torque_Nm[i]);
-    ++count;
-  }
-  if (!(peak_a > 0)) return {};
-  return CourseDifference{std::abs(peak_a - peak_b) / peak_a, std::sqrt(sum / count) / peak_a};
+  return differenceOf(Course{first.time_s, a->torque_Nm}, Course{second.time_s, b->torque_Nm}, from_s, to_s);
 }
 
 std::optional<double> meshPart(const RunNumbers& coarse, const RunNumbers& fine, const std::string& joint,
@@ -74,23 +96,36 @@ const RunNumbers* runOf(const Study& s, const std::vector<RunNumbers>& runs, std
   return nullptr;
 }
 
-/// Of the value. A torque's is that of its course until the run with half steps ends, of the peak by then.
+/// The course of a number in a run; nothing where the run has none.
+std::optional<Course> courseOf(const RunNumbers& run, const Headline& what) {
+  if (what.isTorque()) {
+    const JointNumbers* j = run.joint(what.of);
+    return j ? std::optional(Course{run.time_s, j->torque_Nm}) : std::nullopt;
+  }
+  const ComfortNumbers* c = run.comfortOf(what.of);
+  if (!c) return {};
+  return Course{run.pressure_time_s,
+                what.quantity == Headline::Quantity::mean_pressure ? c->mean_so_far_Pa : c->largest_Pa};
+}
+
+/// Of the value: that of its course until the run with half steps ends, of the largest by then. A mean pressure is
+/// compared as it is where that run ends.
 std::optional<double> stepPart(const RunNumbers& run, const RunNumbers& half, const Headline& what, std::string& why) {
-  if (!what.isTorque()) return {};  // pressures are means and peaks of whole runs
-  if (half.time_s.empty() || half.time_s.back() <= run.counted_from_s) {
+  const auto whole = courseOf(run, what), part = courseOf(half, what);
+  if (!whole || !part) return {};
+  const double from_s = run.counted_from_s;
+  if (part->time_s.empty() || part->time_s.back() <= from_s) {
     why = fmt::format("the run with half steps ends at {} s, before torques count; a longer step_duration shows more",
                       formatNumber(half.recorded_to_s));
     return {};
   }
-  constexpr double enough = 0.2;  // of the whole run's peak: a smaller one says little of it
-  double most = 0;
-  const JointNumbers& j = *run.joint(what.of);
-  for (std::size_t i = 0; i < run.time_s.size() && run.time_s[i] <= half.time_s.back(); ++i)
-    if (run.time_s[i] >= run.counted_from_s) most = std::max(most, std::abs(j.torque_Nm[i]));
-  const auto d = differenceOf(run, half, what.of, run.counted_from_s, half.time_s.back());
-  if (!d || most < enough * std::abs(j.peak_Nm)) {
+  const bool is_mean = what.quantity == Headline::Quantity::mean_pressure;
+  const double to_s = part->time_s.back() + kSameTime_s;
+  constexpr double enough = 0.2;  // of the whole run's: a smaller one says little of it
+  const auto d = differenceOf(*whole, *part, is_mean ? to_s - 2 * kSameTime_s : from_s, to_s);
+  if (!d || whole->largest(from_s, to_s) < enough * whole->largest(from_s, whole->time_s.back())) {
     why = fmt::format(
-        "until the run with half steps ends, at {} s, the torque is below a fifth of its peak; a longer "
+        "until the run with half steps ends, at {} s, less than a fifth of the peak is reached; a longer "
         "step_duration shows more",
         formatNumber(half.recorded_to_s));
     return {};

@@ -464,6 +464,7 @@ def kinds():
         results("export_segment", "out/frames/segment_000001.h5", dressed_case, "export", "out", "--iges", "a.igs", "--opensim", "loads"),
         studied("study_summary", "summary.json"),
         studied("study_torques", "torques.csv"),
+        studied("study_pressures", "pressures.csv"),
         Kind("import_garmentcode", "a.json", {"a.json": GARMENTCODE}, command=importing("a.json")),
         Kind("import_dxf", "a.dxf", {"a.dxf": dxf()}, command=importing("a.dxf")),
         Kind("import_step", "a.step", {"a.step": (CAD / "cylinder.step").read_text()}, command=["import", "a.step", "-o", "written.json"]),

@@ -220,20 +220,31 @@ std::vector<TriangleMesh> BodyMap::meshes(double time_s) const {
 }
 
 BodyLoads bodyLoads(const BodyMap& map, const RecordingReader& recording, double from_s) {
-  BodyLoads loads{std::vector<double>(map.size(), 0), std::vector<double>(map.size(), 0),
-                  std::vector<double>(map.size(), 0)};
-  int counted = 0;
+  BodyLoads loads{std::vector<double>(map.size(), 0),
+                  std::vector<double>(map.size(), 0),
+                  std::vector<double>(map.size(), 0),
+                  {},
+                  {},
+                  {}};
+  const std::size_t zones =
+      map.size() == 0 ? 0 : 1 + static_cast<std::size_t>(*std::max_element(map.zone().begin(), map.zone().end()));
   for (int k = 0; k < recording.frameCount(); ++k) {
     const double t = recording.time(k);
     if (!(t > 1e-9) || t < from_s - 1e-9) continue;
     const std::vector<double> p = map.pressure(recording.frame(k));
-    ++counted;
+    loads.time_s.push_back(t);
+    const double counted = static_cast<double>(loads.time_s.size());
+    std::vector<double>& largest = loads.largest_Pa.emplace_back(zones, 0.0);
+    std::vector<double>& mean = loads.mean_so_far_Pa.emplace_back(zones, 0.0);
     for (std::size_t v = 0; v < p.size(); ++v) {
-      loads.mean_Pa[v] += p[v];
+      const auto z = static_cast<std::size_t>(map.zone()[v]);
+      loads.mean_Pa[v] += p[v];  // the sum, until all are in
       if (p[v] > loads.peak_Pa[v]) loads.peak_Pa[v] = p[v], loads.peak_time_s[v] = t;
+      largest[z] = std::max(largest[z], p[v]);
+      mean[z] = std::max(mean[z], loads.mean_Pa[v] / counted);
     }
   }
-  for (double& p : loads.mean_Pa) p /= std::max(counted, 1);
+  for (double& p : loads.mean_Pa) p /= std::max<double>(1, static_cast<double>(loads.time_s.size()));
   return loads;
 }
 

@@ -40,6 +40,20 @@ void measureComfort(const Scenario& s, const RecordingReader& recording, Measure
   }
 }
 
+void writePressures(const std::filesystem::path& csv, const Scenario& s, const Measured& m) {
+  const std::vector<std::string> names = zoneNames(s);
+  std::vector<std::string> columns{"time_s"};
+  std::vector<std::vector<double>> rows;
+  for (const double t : m.body_loads.time_s) rows.push_back({t});
+  for (const ComfortMeasure& c : m.comfort) {
+    const auto z = static_cast<std::size_t>(std::find(names.begin(), names.end(), c.zone) - names.begin());
+    columns.insert(columns.end(), {c.zone + "_largest_Pa", c.zone + "_mean_so_far_Pa"});
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      rows[k].insert(rows[k].end(), {m.body_loads.largest_Pa[k][z], m.body_loads.mean_so_far_Pa[k][z]});
+  }
+  writeCsv(csv, columns, rows);
+}
+
 void addComfort(const Scenario& s, const Measured& m, ReportInput& in) {
   if (m.comfort.empty()) return;
   const ComfortCase& c = s.definition.comfort;

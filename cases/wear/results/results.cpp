@@ -225,6 +225,7 @@ void writeResults(const std::filesystem::path& dir) {
   }
   writeContact(dir / "contact.csv", m.bodies, m.windows);
   writeZones(dir / "zones.csv", m.zones);
+  if (!m.comfort.empty()) writePressures(dir / "pressures.csv", s, m);
   writeCloth(dir, s, m);
   writeCollisions(dir / "collisions.csv", m.steps.collisions);
   writeEnergy(dir / "energy.csv", m.energy.rows);

@@ -57,6 +57,11 @@ std::vector<PictureCase> picturesOf(const Case& c);
 /// As the picture names it; else upright where a human wears the cloth.
 PictureSize sizeOf(const Scenario& scenario, const PictureCase& picture);
 
+/// Replaces DIR/pressures.csv: of each part of the body that something presses on, frame by frame of the time that
+/// counts, the pressure where it is largest then, and where the mean over time is largest that mean, had the motion
+/// ended there (Measured::comfort has the largest of the former and the last of the latter).
+void writePressures(const std::filesystem::path& csv, const Scenario& scenario, const Measured& measured);
+
 /// Pressure on the body against comfort limits, for the page; nothing where nothing touches a human.
 void addComfort(const Scenario& scenario, const Measured& measured, ReportInput& in);
 

@@ -12,6 +12,7 @@
 #include "cases/wear/results/measure.hpp"
 #include "cases/wear/results/write.hpp"
 #include "core/error.hpp"
+#include "core/io/csv_text.hpp"
 #include "human/body/body_zones.hpp"
 #include "unit/cases/example.hpp"
 
@@ -121,6 +122,28 @@ TEST_F(Comfort, MeansPeaksDosesAndLights) {
   EXPECT_EQ(chest.limit.red_Pa, 4270);
   // Nothing pressed the feet.
   EXPECT_THROW(of("foot_left"), std::out_of_range);
+
+  // Frame by frame: what presses most then, and the mean until then.
+  writePressures(folder.path() / "pressures.csv", *scenario_, m);
+  std::ifstream table(folder.path() / "pressures.csv");
+  std::string line;
+  std::getline(table, line);
+  const std::vector<std::string> columns = csvCells(line);
+  EXPECT_EQ(columns[0], "time_s");
+  EXPECT_EQ(std::count(columns.begin(), columns.end(), "foot_left_largest_Pa"), 0);
+  const auto at = static_cast<std::size_t>(
+      std::find(columns.begin(), columns.end(), "thigh_right_largest_Pa") - columns.begin());
+  ASSERT_LT(at + 1, columns.size());
+  EXPECT_EQ(columns[at + 1], "thigh_right_mean_so_far_Pa");
+  int frames = 0;
+  for (; std::getline(table, line); ++frames) {
+    const std::vector<std::string> row = csvCells(line);
+    ASSERT_EQ(row.size(), columns.size());
+    EXPECT_NEAR(std::stod(row[0]), 0.1 * (frames + 1), 1e-9);
+    EXPECT_NEAR(std::stod(row[at]), frames == 4 ? 10000 : 1000, 1);
+    EXPECT_NEAR(std::stod(row[at + 1]), frames < 4 ? 1000 : 1000 + 9000.0 / (frames + 1), 1) << frames;
+  }
+  EXPECT_EQ(frames, 10);
 
   ReportInput in;
   addComfort(*scenario_, m, in);

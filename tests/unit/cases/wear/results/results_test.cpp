@@ -206,6 +206,7 @@ TEST(Results, KnownImpulsesGiveKnownTorques) {
     EXPECT_NE(bad.why.find(words), std::string::npos) << bad.why;
   };
   damaged("torques.csv", "\n0.005", "\nx.005", "is no number");
+  damaged("pressures.csv", "_mean_so_far_Pa", "_mean_Pa", "has no column");
   damaged("summary.json", R"("side": "")", R"("side": "right hand side")", "is not one of the side");
 }
 
