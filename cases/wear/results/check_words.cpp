@@ -74,6 +74,12 @@ CheckWords checkWords(const std::string& check, double value, double limit, cons
   if (check == "Pinched")
     return {fmt::format("{} times a point of the cloth was squeezed between two bodies and let through", count),
             "Forces at those places and times are not known; elsewhere they are.", false};
+  if (check == "Pressure on flesh")
+    return {fmt::format("the cloth presses on the body with up to {}", much),
+            "Cloth is wedged there, as in a fold between two parts of the body. Flesh would have given way, and the "
+            "body here does not: torques and pressures of that moment are far too large, and peaks that fall into it "
+            "are none. A garment with more room, or that folds elsewhere, avoids it.",
+            false};
   if (check == "Strain limit")
     return {fmt::format("threads stretch more than their limit in {} of the steps", much),
             "The cloth is softer than the case says: torques are rather too small.", false};

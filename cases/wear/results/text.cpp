@@ -10,6 +10,7 @@
 #include "cases/cloth/make_cloth.hpp"
 #include "cases/wear/case/factors.hpp"
 #include "cases/wear/case/motions/kind.hpp"
+#include "cases/wear/recording/zone_ledger.hpp"
 #include "cases/wear/results/joint_words.hpp"
 #include "cases/wear/results/write.hpp"
 #include "core/material/fabric_law.hpp"
@@ -117,6 +118,11 @@ std::string energyHere(const EnergyMeasure& e) {
       formatNumber(lift_mm, 2));
 }
 
+/// Over a sensor's width. A disc of 1 cm^2 that is pressed on a muscle begins to hurt at some hundred kPa (pressure
+/// algometry, Fischer 1987, Pain 30(1), 115-126); that it is 200 is a choice of ours. Before that flesh gives way,
+/// which the bodies here do not, and the wearer ends the movement.
+constexpr double kFleshBears_Pa = 2e5;
+
 }  // namespace
 
 std::vector<AuditCheck> auditOf(const Measured& m) {
@@ -153,6 +159,14 @@ std::vector<AuditCheck> auditOf(const Measured& m) {
   for (const CollisionWindow& w : m.steps.collisions) way = std::max(way, w.way_cells);
   checks.push_back({"Movement", way, 0.5, "cells", "the farthest that a sample of the cloth goes in a step"});
   checks.push_back({"Pinched", pinched, 0, "", "samples between two obstacles whose impacts had to be let pass"});
+  const auto hardest = std::max_element(m.comfort.begin(), m.comfort.end(),
+                                        [](const auto& a, const auto& b) { return a.peak_Pa < b.peak_Pa; });
+  if (hardest != m.comfort.end())
+    checks.push_back(
+        {"Pressure on flesh", 1e-3 * hardest->peak_Pa, 1e-3 * kFleshBears_Pa, "kPa",
+         fmt::format("the largest pressure over the width of a sensor, anywhere on the body and at any time "
+                     "that counts, beside what begins to hurt; here on the {} at {:.2f} s",
+                     spokenZone(hardest->zone), hardest->peak_time_s)});
   if (m.limited)
     checks.push_back(
         {"Strain limit",

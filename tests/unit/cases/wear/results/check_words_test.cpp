@@ -26,8 +26,9 @@ TEST(CheckWords, EveryCheckOfARunHasThem) {
   joint.second_stride->samples = 1;
   m.joints = {joint};
   m.garment_order = {{"shirt", "trousers", 1}};
+  m.comfort.push_back({"waist", {}, 900, 3e5, 0.5, 0, 0});
   const auto checks = auditOf(m);
-  EXPECT_EQ(checks.size(), 13u);
+  EXPECT_EQ(checks.size(), 14u);
   const std::string unknown = checkWords("no such check", 1, 0, "").means;
   for (const AuditCheck& c : checks) {
     EXPECT_NE(checkWords(c.name, 1, c.limit, c.unit).means, unknown) << c.name;

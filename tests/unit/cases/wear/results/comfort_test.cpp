@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <utility>
 
 #include "cases/study/study.hpp"
 #include "cases/wear/recording/recorder.hpp"
@@ -122,6 +123,19 @@ TEST_F(Comfort, MeansPeaksDosesAndLights) {
   EXPECT_EQ(chest.limit.red_Pa, 4270);
   // Nothing pressed the feet.
   EXPECT_THROW(of("foot_left"), std::out_of_range);
+
+  // A body that does not give way is no wearer where cloth is wedged in a fold of it.
+  const auto flesh = [&] {
+    const std::vector<AuditCheck> all = auditOf(m);
+    return *std::find_if(all.begin(), all.end(), [](const AuditCheck& c) { return c.name == "Pressure on flesh"; });
+  };
+  EXPECT_TRUE(flesh().holds());
+  EXPECT_NEAR(flesh().value, 10, 1e-3);
+  EXPECT_NE(flesh().meaning.find("right thigh at 0.50 s"), std::string::npos) << flesh().meaning;
+  const double as_it_is = std::exchange(m.comfort[0].peak_Pa, 3e5);
+  EXPECT_FALSE(flesh().holds());
+  EXPECT_NEAR(flesh().value, 300, 1e-9);
+  m.comfort[0].peak_Pa = as_it_is;
 
   // Frame by frame: what presses most then, and the mean until then.
   writePressures(folder.path() / "pressures.csv", *scenario_, m);
