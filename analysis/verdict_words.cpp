@@ -62,7 +62,12 @@ std::string whoPays(const VerdictInput& in, const Option& o) {
 
 namespace {
 
-/// Where torques are judged: " in all 2 motions", " for the 2 wearers whose natural moments are known"; empty for one.
+/// "both motions", "all 3 motions"
+std::string allOf(long count, const std::string& many) {
+  return count == 2 ? "both " + many : fmt::format("all {} {}", count, many);
+}
+
+/// Where torques are judged: " in both motions", " for the 2 wearers whose natural moments are known"; empty for one.
 std::string everywhereOf(const VerdictInput& in, const Option& o) {
   const bool all = std::all_of(o.costs.begin(), o.costs.end(), [](const auto& c) { return c.part.has_value(); });
   std::size_t known = 0;
@@ -70,7 +75,7 @@ std::string everywhereOf(const VerdictInput& in, const Option& o) {
   if (known < 2) return "";
   // Several things together are no variants of their own.
   const RoleWords w = in.setting == Role::other ? RoleWords{"in", "setting", "settings", ""} : wordsOf(in.setting);
-  return all ? fmt::format(" {} all {} {}", w.before, known, w.many)
+  return all ? fmt::format(" {} {}", w.before, allOf(static_cast<long>(known), w.many))
              : fmt::format(" {} the {} {} whose natural moments are known", w.before, known, w.many);
 }
 
@@ -78,7 +83,7 @@ std::string everywhereOf(const VerdictInput& in, const Option& o) {
 std::string amongOf(Role role, long count, long all) {
   const RoleWords w = wordsOf(role);
   if (all == 1) return fmt::format("{} the one {} studied", w.before, w.one);
-  return count == all ? fmt::format("{} all {} {}", w.before, all, w.many)
+  return count == all ? fmt::format("{} {}", w.before, allOf(all, w.many))
                       : fmt::format("{} {} of {} {}", w.before, count, all, w.many);
 }
 
@@ -126,9 +131,14 @@ std::string placeBeside(const WrongRuns& runs, const VerdictInput& in, const Ver
   const auto count = static_cast<int>(runs.names.size());
   if (!v.chosen || count == in.checked_runs || count == 0) return place;
   const auto own = std::count(runs.options.begin(), runs.options.end(), v.take);
+  const bool several = motionsOf(at(in, v.take)).size() > 1;
+  if (count > 1 && own == 1 && several) {
+    const auto which = std::find(runs.options.begin(), runs.options.end(), v.take) - runs.options.begin();
+    return place + ", among them " + runs.names[static_cast<std::size_t>(which)];
+  }
   if (count > 1) return place + (own > 0 ? ", its own among them" : ", none of them its own");
   if (own == 0) return place + ", not in its own";
-  return motionsOf(at(in, v.take)).size() > 1 ? "in its run " + runs.names[0] : "in its run";
+  return several ? "in its run " + runs.names[0] : "in its run";
 }
 
 /// "the check Energy fails in its run: 7.5 % of the work is unaccounted for"; more than two are counted.

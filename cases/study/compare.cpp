@@ -252,6 +252,7 @@ void compareMeshes(const Study& s, Comparison& c) {
     MeshRow row;
     row.setting = settingOf(s, v, {c.mesh_axis});
     row.joint = f.label;
+    row.coarse = i;
     if (c.main_axis >= 0) row.level = v.levels[static_cast<std::size_t>(c.main_axis)];
     row.coarse_points = coarse.control_points;
     row.fine_points = fine.control_points;

@@ -55,6 +55,7 @@ struct MeshRow {
   double error = 0;                   ///< the same, relative to the largest torque of the same level
   double course = 0;                  ///< RMS difference after 0.2 s, of the fine peak
   double bar = 0;                     ///< half width about the peak that pages show, of it
+  std::size_t coarse = 0;             ///< variant
 };
 
 struct Comparison {

@@ -210,23 +210,30 @@ std::string eachOf(const Study& s, const Comparison& c) {
   return element("dl", list, " class=\"answers\"");
 }
 
+/// "0.272 to 0.279 kg", "0.272 kg"; nothing where there is none above 0.
+std::string fromTo(const std::vector<double>& values, const char* unit) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  if (values.empty() || !(*most > 0)) return "";
+  const std::string low = formatNumber(*least), high = formatNumber(*most);
+  return fmt::format("{}{} {}", low, low == high ? "" : " to " + high, unit);
+}
+
 /// Of the option taken: what it is, and what it costs in each motion.
 std::string takenOf(const Study& s, const Comparison& c) {
   if (c.verdict.take < 0 || trustOf(c.input).spoiling > 0) return "";
   if (!c.verdict.chosen) return eachOf(s, c);
   std::string list;
   const Option& o = c.input.options[static_cast<std::size_t>(c.verdict.take)];
-  std::optional<double> mass, base;
+  std::vector<double> mass, base;  // of each wearer or motion
   for (std::size_t i = 0; i < s.variants.size(); ++i) {
     if (!s.variants[i].grid || !c.runs[i].good) continue;
-    if (!mass && memberName(s, c, i) == o.name) mass = c.runs[i].mass_kg();
-    if (!base && s.variants[i].baseline == static_cast<int>(i)) base = c.runs[i].mass_kg();
+    if (memberName(s, c, i) == o.name) mass.push_back(c.runs[i].mass_kg());
+    if (s.variants[i].baseline == static_cast<int>(i)) base.push_back(c.runs[i].mass_kg());
   }
+  const std::string weighs = fromTo(mass, "kg"), instead = fromTo(base, "kg");
   if (!c.verdict.garments.empty()) list += item("Thickness", prose(c.verdict.garments));
-  if (mass && *mass > 0)
-    list += item("Weighs", base && formatNumber(*base) != formatNumber(*mass)
-                               ? fmt::format("{} kg instead of {} kg", formatNumber(*mass), formatNumber(*base))
-                               : fmt::format("{} kg", formatNumber(*mass)));
+  if (!weighs.empty())
+    list += item("Weighs", !instead.empty() && instead != weighs ? weighs + " instead of " + instead : weighs);
   for (const VariantGroup& g : c.groups) {
     const Option::Cost* worst = worstCost(o, &g.label);
     if (!worst) continue;
@@ -258,6 +265,49 @@ std::string changesOf(const Study& s, const Comparison& c) {
     text += " Which property of the fabric makes the torque: see what the torque is made of.";
   if (!s.optimise) text += " Where the garment should be thick and where thin was not asked; \"optimise\" searches.";
   return text;
+}
+
+/// Where the answer costs how much, the most first; nothing where there is one setting.
+std::string whereOf(const Study& s, const Comparison& c) {
+  if (!c.verdict.chosen || c.verdict.take < 0 || trustOf(c.input).spoiling > 0) return "";
+  const Option& o = c.input.options[static_cast<std::size_t>(c.verdict.take)];
+  std::vector<const Option::Cost*> costs;
+  for (const VariantGroup& g : c.groups)
+    if (const Option::Cost* worst = worstCost(o, &g.label)) costs.push_back(worst);
+  if (costs.size() < 2) return "";
+  const auto bySize = [](const Option::Cost* a, const Option::Cost* b) {
+    return a->part.value_or(0) != b->part.value_or(0) ? a->part.value_or(0) > b->part.value_or(0)
+                                                      : a->peak_Nm > b->peak_Nm;
+  };
+  std::stable_sort(costs.begin(), costs.end(), bySize);
+  std::string text;
+  for (const Option::Cost* k : costs) {
+    const std::string share = k->part ? fmt::format(", {} of what the joint needs without the garment",
+                                                    percentBeside(*k->part, s.limits.green, s.limits.red))
+                                      : "";
+    text += fmt::format("{}{}: {} Nm at the {}{}.", text.empty() ? "" : " ", k->motion, formatNumber(k->peak_Nm),
+                        k->joint, share);
+  }
+  return text;
+}
+
+/// Whether finer cells gave less or more, where all pairs agree.
+std::string trendOf(const Comparison& c) {
+  if (c.meshes.empty()) return "";
+  double least = 1e300, most = -1e300;  // of the fine run's, what is gone
+  for (const MeshRow& m : c.meshes) {
+    const double less = 1 - std::abs(m.fine_Nm / m.coarse_Nm);
+    if (!std::isfinite(less)) return "";
+    least = std::min(least, less), most = std::max(most, less);
+  }
+  if (least * most <= 0) return "";
+  const bool less = least > 0;
+  const std::string low = percent(std::min(std::abs(least), std::abs(most))),
+                    high = percent(std::max(std::abs(least), std::abs(most)));
+  return fmt::format(" Finer cells gave {} {}, by {}: what stands here is rather too {}.",
+                     less ? "smaller peaks" : "larger peaks",
+                     c.meshes.size() == 1 ? "in the one pair of runs" : "in all pairs of runs",
+                     low == high ? low : low + " to " + high, less ? "large" : "small");
 }
 
 /// What would make the answer surer: of the torque whose error bar is widest, and of the fabric where it is stretched
@@ -351,11 +401,15 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
     doubts += element("li", prose(fmt::format("{}, {}", d.check, placeOf(d.runs, c.input))));
   const std::string whose = barred(s, c);
   const std::string carried =
-      whose.empty() ? "" : fmt::format(" It was found with {}; the others have it in per cent.", whose);
+      whose.empty()
+          ? ""
+          : fmt::format(" It was found with {}; of the others it is taken to be the same part of their torques.",
+                        whose);
   const char* surety[]{"not sure", "fairly sure", "sure"};
   const std::string cards =
       card(v.chosen && v.light != Light::red ? "Why this one" : "How they differ", v.why) +
-      card("What to change", changesOf(s, c)) + card("Thinner still?", v.estimate) +
+      card("Where it costs most", whereOf(s, c)) + card("What to change", changesOf(s, c)) +
+      card("Thinner still?", v.estimate) +
       card(fmt::format("{}: {}",
                        v.chosen                      ? "Which one"
                        : c.input.role == Role::model ? "The largest"
@@ -365,7 +419,7 @@ std::string headline(const Study& s, const Comparison& c, const std::vector<Side
       card(
           c.input.error() ? fmt::format("How much: \u00b1 {}", percent(c.input.error()))
                           : std::string("How much: no error bar"),
-          v.numbers + carried,
+          v.numbers + (c.verdict.take >= 0 ? trendOf(c) : "") + carried,
           (c.budgets.empty() ? "" : element("p", "<a href=\"#sure\">What that is made of</a>")) +
               (doubts.empty() ? "" : element("ul", doubts) + element("p", "<a href=\"#checks\">What that means</a>"))) +
       card("What to measure", measuresOf(s, c));

@@ -59,6 +59,16 @@ std::string pressureOf(const Comparison& c) {
   return c.input.sensor_m > 0 ? fmt::format("Pressure, the mean over {:g} mm", 1e3 * c.input.sensor_m) : "Pressure";
 }
 
+/// " times the 30 minutes that the case says it is worn"; nothing where variants differ in that.
+std::string wornFor(const Study& s) {
+  std::set<double> minutes;
+  for (const Variant& v : s.variants)
+    if (const auto* c = std::get_if<Case>(&v.definition)) minutes.insert(c->comfort.wear_s / 60);
+  return minutes.size() == 1
+             ? fmt::format(" times the {:g} minutes that the garment is taken to be worn", *minutes.begin())
+             : " times how long the garment is taken to be worn";
+}
+
 }  // namespace
 
 std::string forcesOf(const Study& s, const Comparison& c) {
@@ -75,8 +85,9 @@ std::string forcesOf(const Study& s, const Comparison& c) {
       const std::string label = escape(s.variants[i].label);
       if (const ComfortNumbers* k = r.leastComfortable())
         comfort.push_back({label, lightOf(lightNamed(k->light), r.trust()), escape(spokenZone(k->zone)),
-                           Html(1e-3 * k->mean_Pa), Html(1e-3 * k->red_Pa), Html(1e-3 * k->peak_Pa),
-                           Html(html::seconds(k->peak_time_s)), Html(1e-3 * k->peak_limit_Pa), Html(k->dose_kPa_min)});
+                           Html(1e-3 * k->mean_Pa), Html(1e-3 * k->amber_Pa), Html(1e-3 * k->red_Pa),
+                           Html(1e-3 * k->peak_Pa), Html(html::seconds(k->peak_time_s)), Html(1e-3 * k->peak_limit_Pa),
+                           Html(k->dose_kPa_min)});
       const double all = r.pressing_N();
       if (!zones.empty()) {
         std::vector<Html> row{label, Html(all)};
@@ -99,13 +110,14 @@ std::string forcesOf(const Study& s, const Comparison& c) {
   if (!comfort.empty())
     out += htmlTable(
         "Comfort: the part of the body that is furthest from comfortable",
-        {"variant", "verdict", "part", "mean [kPa]", "limit [kPa]", "peak [kPa]", "peak at", "limit of peaks [kPa]",
-         "dose [kPa min]"},
+        {"variant", "verdict", "part", "mean [kPa]", "comfortable [kPa]", "limit [kPa]", "peak [kPa]", "peak at",
+         "limit of peaks [kPa]", "dose [kPa min]"},
         comfort,
         pressureOf(c) +
             ", where it is largest, against the limits of the case: red where the mean over time or the peak is above "
-            "its limit, amber where the mean is above a lower one. Dose: the mean over the hours that the garment is "
-            "worn. Each variant\u2019s own report has all parts, and pictures.");
+            "its limit, amber where the mean is above what is comfortable. Another variant may press most on another "
+            "part. Dose: the mean" +
+            wornFor(s) + ". Each variant\u2019s own report has all parts, and pictures.");
   if (!shares.empty())
     out += htmlTable("Which parts of the body bear the garment", columns, shares,
                      "Shares of the mean force that presses, both sides together, without belt and edges on springs. "

@@ -30,6 +30,14 @@ double timeOf(const VariantGroup& g, std::size_t own, const Comparison& c, const
   return wish.when == PictureTime::end || !top ? run->recorded_to_s : top->peak_time_s;
 }
 
+/// "; there thickness x 1 pays most", of pictures at the peak of another run's torque; else empty.
+std::string whoseOf(const Study& s, const VariantGroup& g, std::size_t own, const Comparison& c,
+                    const PictureCase& wish) {
+  if (wish.when != PictureTime::peak || c.population || g.baseline < 0) return "";
+  const auto base = static_cast<std::size_t>(g.baseline);
+  return base == own || !c.runs[base].good ? "" : "; at that moment " + memberName(s, c, base) + " pays most";
+}
+
 /// A run that is drawn, and the group in which it stands.
 struct Drawn {
   const VariantGroup& group;
@@ -111,9 +119,10 @@ std::vector<SidePicture> takeSidePictures(const Study& s, const Comparison& c, c
         const std::lock_guard alone(pencil);
         renderFrame(*scenario, recording, frame, wish, scales[w], png);
       }
-      taken[k].push_back(
-          {drawn[k].run, w, png,
-           v.label + ". " + captionOf(wish, recording.time(frame), std::get<Case>(v.definition).comfort.sensor_m)});
+      taken[k].push_back({drawn[k].run, w, png,
+                          v.label + ". " +
+                              captionOf(wish, recording.time(frame), std::get<Case>(v.definition).comfort.sensor_m) +
+                              whoseOf(s, drawn[k].group, drawn[k].run, c, s.pictures[w])});
     }
   });
   for (std::size_t k = 0; k < drawn.size(); ++k) {

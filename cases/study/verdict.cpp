@@ -117,18 +117,28 @@ void addMeshError(const Comparison& c, VerdictInput& in) {
   in.mesh_where = where.size() == 1 ? where[0] : where.empty() ? "" : fmt::format("{} pairs of runs", where.size());
 }
 
+/// The joint of whose peak the verdict tells the error bar: one, for the mesh and for the others.
+const JointNumbers* toldBy(const Comparison& c, const Budget& b) {
+  const RunNumbers& run = c.runs[b.reference];
+  for (const MeshRow& m : c.meshes)
+    if (m.coarse == b.reference)
+      for (const JointNumbers& j : run.joints)
+        if (j.label == m.joint) return &j;
+  return run.decisive();
+}
+
 /// Of the joints that decide in the settings whose bars are known; what a motion that costs next to nothing is off by
 /// decides nothing.
 void addOtherErrors(const Comparison& c, VerdictInput& in) {
   const auto costOf = [&](const Budget& b, double torque_Nm) {
-    const JointNumbers* j = c.runs[b.reference].decisive();
+    const JointNumbers* j = toldBy(c, b);
     return j && j->natural_Nm && *j->natural_Nm > 0 ? torque_Nm / *j->natural_Nm : torque_Nm;
   };
   double largest = 0;
   for (const bool scaled : {false, true})
     for (const Budget& b : c.budgets)
       for (const BarredNumber& n : b.numbers) {
-        const JointNumbers* j = c.runs[b.reference].decisive();
+        const JointNumbers* j = toldBy(c, b);
         if (!j || n.what.of != j->name || n.what.quantity != Headline::Quantity::peak) continue;
         if (!scaled) {
           largest = std::max(largest, costOf(b, n.value));

@@ -47,7 +47,7 @@ TEST(Verdict, TakesTheThickestThatStaysGreen) {
   const Verdict v = verdictOf(table({0.02, 0.04, 0.08}));
   EXPECT_EQ(v.take, 1);
   EXPECT_EQ(v.light, Light::green);
-  EXPECT_EQ(v.sentence, "Take thickness x 0.75: the thickest that stays green in all 2 motions.");
+  EXPECT_EQ(v.sentence, "Take thickness x 0.75: the thickest that stays green in both motions.");
   EXPECT_EQ(v.garments, "shirt 2.25 mm, pad 10.0 mm");
   EXPECT_EQ(
       v.enough,
@@ -73,7 +73,7 @@ TEST(Verdict, TheMarginMayComeFromTheOneNotTaken) {
   const Verdict v = verdictOf(table({0.01, 0.02, 0.055}));
   EXPECT_EQ(v.take, 1);
   EXPECT_NEAR(*v.holds_up_to, 1 - 0.05 / 0.055, 1e-9);
-  EXPECT_TRUE(has(v.sentence, "green in all 2 motions, though only just")) << v.sentence;
+  EXPECT_TRUE(has(v.sentence, "green in both motions, though only just")) << v.sentence;
   EXPECT_TRUE(has(v.choice, "A narrow margin")) << v.choice;
   EXPECT_EQ(v.surety, Surety::no);
 }

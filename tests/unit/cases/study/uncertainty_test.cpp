@@ -156,7 +156,7 @@ TEST(Uncertainty, ThePageSaysWhatToMeasure) {
   const auto has = [&](const std::string& text) { return page.find(text) != std::string::npos; };
   EXPECT_TRUE(has("What to measure"));
   EXPECT_TRUE(has("measure the bending rigidity better"));
-  EXPECT_TRUE(has("It was found with thickness x 1; the others have it in per cent."));
+  EXPECT_TRUE(has("It was found with thickness x 1; of the others it is taken to be the same part of their torques."));
   EXPECT_TRUE(
       has("Of the 28 runs of thickness x 1 that tell the error bars 3 have a part of the body that is amber or "
           "red."));
