@@ -44,6 +44,7 @@ struct Option {
     double mean_Pa = 0, limit_Pa = 0;       ///< over time, where it presses most
     double peak_Pa = 0, peak_limit_Pa = 0;  ///< at any time
     std::optional<double> peak_time_s = {};
+    std::string peak_during = {};  ///< "swing (80 % of the stride)", empty where there are no strides
     /// Of the limit that is nearest or furthest surpassed.
     double part_of_limit() const;
   };

@@ -144,9 +144,10 @@ std::string comfortOf(const VerdictInput& in, const Verdict& v) {
   const bool alike = alikeEverywhere(in, *c);
   const bool named = !v.chosen && !alike;
   const std::string at_what = (named ? option->name + (c->motion.empty() ? "" : ", ") : "") + c->motion;
-  const std::string when = c->peak_time_s && !(toldByMean(*c) && c->peak_Pa <= c->peak_limit_Pa)
-                               ? fmt::format(", at {:.2f} s", *c->peak_time_s)
-                               : "";
+  const std::string when =
+      c->peak_time_s && !(toldByMean(*c) && c->peak_Pa <= c->peak_limit_Pa)
+          ? fmt::format(", at {:.2f} s{}", *c->peak_time_s, c->peak_during.empty() ? "" : ", during " + c->peak_during)
+          : "";
   std::string text = fmt::format("{}: on the {}{} {}{}.",
                                  c->light == Light::red     ? "Not comfortable"
                                  : c->light == Light::amber ? "Not quite comfortable"

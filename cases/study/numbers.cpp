@@ -277,7 +277,7 @@ RunNumbers readRun(const std::filesystem::path& folder) {
     for (const auto& [zone, k] : j.at("comfort").items())
       run.comfort.push_back({zone, k.at("light").text(), k.at("mean_Pa").number(), k.at("peak_Pa").number(),
                              k.at("red_Pa").number(), k.at("peak_limit_Pa").number(), k.at("dose_kPa_min").number(),
-                             k.at("peak_time_s").number(), k.at("amber_Pa").number()});
+                             k.at("peak_time_s").number(), k.at("amber_Pa").number(), k.at("peak_during").text()});
     for (const Json& s : j.at("stress").list())
       run.stress.push_back({s.at("region").text(), s.at("p50_N_per_m").number(), s.at("p95_N_per_m").number(),
                             s.at("p99_N_per_m").number(), s.at("max_N_per_m").number(),

@@ -51,7 +51,8 @@ struct ZoneNumbers {
 struct ComfortNumbers {
   std::string zone, light;
   double mean_Pa = 0, peak_Pa = 0, red_Pa = 0, peak_limit_Pa = 0, dose_kPa_min = 0, peak_time_s = 0;
-  double amber_Pa = 0;  ///< the comfortable mean
+  double amber_Pa = 0;        ///< the comfortable mean
+  std::string peak_during{};  ///< phase of the stride; empty in other motions
   /// Over RunNumbers::pressure_time_s, as pressures.csv has them.
   std::vector<double> largest_Pa{}, mean_so_far_Pa{};
   /// Of the limit that is nearest or furthest surpassed: of the mean over time, or of the peak.

@@ -84,10 +84,11 @@ std::string forcesOf(const Study& s, const Comparison& c) {
       if (!r.good) continue;
       const std::string label = escape(s.variants[i].label);
       if (const ComfortNumbers* k = r.leastComfortable())
-        comfort.push_back({label, lightOf(lightNamed(k->light), r.trust()), escape(spokenZone(k->zone)),
-                           Html(1e-3 * k->mean_Pa), Html(1e-3 * k->amber_Pa), Html(1e-3 * k->red_Pa),
-                           Html(1e-3 * k->peak_Pa), Html(html::seconds(k->peak_time_s)), Html(1e-3 * k->peak_limit_Pa),
-                           Html(k->dose_kPa_min)});
+        comfort.push_back(
+            {label, lightOf(lightNamed(k->light), r.trust()), escape(spokenZone(k->zone)), Html(1e-3 * k->mean_Pa),
+             Html(1e-3 * k->amber_Pa), Html(1e-3 * k->red_Pa), Html(1e-3 * k->peak_Pa),
+             Html(html::seconds(k->peak_time_s) + (k->peak_during.empty() ? "" : ", " + escape(k->peak_during))),
+             Html(1e-3 * k->peak_limit_Pa), Html(k->dose_kPa_min)});
       const double all = r.pressing_N();
       if (!zones.empty()) {
         std::vector<Html> row{label, Html(all)};

@@ -31,7 +31,7 @@ void addRun(const Comparison& c, const VariantGroup& g, std::size_t i, Option& o
   }
   if (const ComfortNumbers* k = run.leastComfortable())
     option.comforts.push_back({g.label, spokenZone(k->zone), lightNamed(k->light), k->mean_Pa, k->red_Pa, k->peak_Pa,
-                               k->peak_limit_Pa, k->peak_time_s});
+                               k->peak_limit_Pa, k->peak_time_s, k->peak_during});
 }
 
 /// Adds the exponents of all joints and motions that the options cost.

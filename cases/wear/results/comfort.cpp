@@ -35,6 +35,14 @@ void measureComfort(const Scenario& s, const RecordingReader& recording, Measure
       if (out.body_loads.mean_Pa[v] > m.limit.amber_Pa) m.amber_m2 += out.body->area_m2()[v];
     }
     if (!(m.peak_Pa > 0)) continue;
+    if (out.strides) {
+      const bool left = m.zone.ends_with("_left"), right = m.zone.ends_with("_right");
+      const bool strides = m.peak_time_s >= out.strides->start_s;
+      m.peak_during =
+          phaseWords(*out.strides, strides ? std::optional(out.strides->phase(m.peak_time_s, right ? "right" : "left"))
+                                           : std::nullopt);
+      if (strides && !left && !right) m.peak_during += " of the left leg";
+    }
     m.dose_kPa_min = 1e-3 * m.mean_Pa * s.definition.comfort.wear_s / 60;
     out.comfort.push_back(m);
   }

@@ -114,6 +114,7 @@ struct ComfortMeasure {
   double peak_Pa = 0, peak_time_s = 0;  ///< at any place and time
   double amber_m2 = 0;                  ///< area whose mean lies above amber
   double dose_kPa_min = 0;              ///< mean_Pa over the time that the case says it is worn
+  std::string peak_during{};            ///< phase of the stride: of its own side's, of the left leg's in the middle
   Light light() const {
     return mean_Pa > limit.red_Pa || peak_Pa > limit.peak_Pa ? Light::red
            : mean_Pa > limit.amber_Pa                        ? Light::amber

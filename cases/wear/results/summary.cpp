@@ -298,7 +298,8 @@ void writeSummary(const Scenario& s, const RecordingReader& recording, const Mea
     j["comfort"][c.zone] = {
         {"light", nameOf(c.light())},   {"mean_Pa", c.mean_Pa},           {"peak_Pa", c.peak_Pa},
         {"peak_time_s", c.peak_time_s}, {"dose_kPa_min", c.dose_kPa_min}, {"above_amber_m2", c.amber_m2},
-        {"amber_Pa", c.limit.amber_Pa}, {"red_Pa", c.limit.red_Pa},       {"peak_limit_Pa", c.limit.peak_Pa}};
+        {"amber_Pa", c.limit.amber_Pa}, {"red_Pa", c.limit.red_Pa},       {"peak_limit_Pa", c.limit.peak_Pa},
+        {"peak_during", c.peak_during}};
   if (Json straps = strapsJson(m.straps, s.model->environment.gravity_m_per_s2); !straps.is_null())
     j["straps"] = std::move(straps);
   j["contact"] = Json::array();

@@ -19,6 +19,12 @@
 
 namespace gambeson {
 
+std::string phaseWords(const Strides& strides, std::optional<double> phase) {
+  return phase
+             ? fmt::format("{} ({:.0f} % of the stride)", *phase < strides.foot_off ? "stance" : "swing", 100 * *phase)
+             : "the lead-in from standing";
+}
+
 std::string causeOf(const JointMeasure& m, const std::optional<Strides>& strides) {
   if (m.prismatic || m.peak.value == 0) return "";
   const MovementWords words = movementWords(m.movement);
@@ -27,15 +33,11 @@ std::string causeOf(const JointMeasure& m, const std::optional<Strides>& strides
   const char* who = still ? "" : push == Push::against ? " against the garment" : " with the garment's push";
   std::string text;
   if (strides && !m.side.empty())
-    text = (m.phase_at_peak
-                ? fmt::format("{} ({:.0f} % of the stride)", *m.phase_at_peak < strides->foot_off ? "stance" : "swing",
-                              100 * *m.phase_at_peak)
-                : "the lead-in from standing") +
-           fmt::format(", while the {} {}{}", m.part,
-                       still                ? "is held"
-                       : m.rate_at_peak > 0 ? words.rises
-                                            : words.falls,
-                       who);
+    text = phaseWords(*strides, m.phase_at_peak) + fmt::format(", while the {} {}{}", m.part,
+                                                               still                ? "is held"
+                                                               : m.rate_at_peak > 0 ? words.rises
+                                                                                    : words.falls,
+                                                               who);
   else
     text = fmt::format("{} of the {}{}",
                        still                ? "standstill"

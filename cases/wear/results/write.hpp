@@ -78,6 +78,9 @@ void renderBody(const Scenario& scenario, const BodyMap& map, const BodyLoads& l
 /// body's origin), and the normal force within, in the last frame.
 void writeLatitude(const std::filesystem::path& csv, const std::vector<TouchMeasure>& touch);
 
+/// "swing (80 % of the stride)"; "the lead-in from standing" without a phase.
+std::string phaseWords(const Strides& strides, std::optional<double> phase);
+
 /// "swing (80 % of the stride), while the hip flexes against the garment, at 23 degrees of flexion".
 std::string causeOf(const JointMeasure& m, const std::optional<Strides>& strides);
 

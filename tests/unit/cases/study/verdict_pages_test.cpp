@@ -82,7 +82,7 @@ RunNumbers numbers(const Story& story, const Variant& v) {
   r.joints.push_back(elbow);
   r.zones = {{"thigh", 30, 28, 5}, {"hips", 20, 19, 3}};
   r.contact = {{"thigh_left", 0.3, 15, 30, 14, 2}, {"thigh_right", 0.3, 15, 30, 14, 2}, {"pelvis", 0.4, 20, 40, 19, 3}};
-  r.comfort = {{"thigh_left", "green", 900, 3000, 4270, 9810, 27, 0.62}};
+  r.comfort = {{"thigh_left", "green", 900, 3000, 4270, 9810, 27, 0.62, 2000, "swing (70 % of the stride)"}};
   r.stress = {{"front_left", 10, 40, 80, 107, 0.05, 0.09}, {"back_left", 8, 30, 70, 169, 0.04, 0.12}};
   r.largest_strain = 0.12;
   r.stretch = {{0.25, 0.04, 0.1, true, "", "weft"}, {0.25, 0.05, 0.12, true, "", "warp"}};
@@ -395,7 +395,8 @@ TEST(VerdictPages, ComfortThatIsAlikeIsToldOnce) {
   const Study s = studyOf(story);
   const std::string comfort = compared(s, story).verdict.comfort;
   EXPECT_TRUE(
-      comfort.starts_with("Comfortable: on the left thigh 3.00 kPa at the peak (limit 9.81 kPa), at 0.62 s. The "
+      comfort.starts_with("Comfortable: on the left thigh 3.00 kPa at the peak (limit 9.81 kPa), at 0.62 s, during "
+                          "swing (70 % of the stride). The "
                           "pressure is the same at all 3 frictions."))
       << comfort;
   EXPECT_FALSE(has(comfort, "friction 0.")) << comfort;

@@ -102,6 +102,7 @@ TEST_F(Comfort, MeansPeaksDosesAndLights) {
   }
   writer.closeSegment({1, {}, {}});
   Measured m;
+  m.strides = Strides{0.3, 1, 1, 0, 0.6};
   measureComfort(*scenario_, RecordingReader(folder.path()), m);
   const auto of = [&](const std::string& name) -> const ComfortMeasure& {
     for (const ComfortMeasure& c : m.comfort)
@@ -117,6 +118,8 @@ TEST_F(Comfort, MeansPeaksDosesAndLights) {
   EXPECT_GT(left.amber_m2, 0.05);
   EXPECT_NEAR(right.peak_Pa, 10000, 1);
   EXPECT_NEAR(right.peak_time_s, 0.5, 1e-12);
+  EXPECT_EQ(right.peak_during, "stance (20 % of the stride)");
+  EXPECT_EQ(chest.peak_during, "the lead-in from standing");
   EXPECT_NEAR(right.mean_Pa, 1900, 1);
   EXPECT_EQ(right.light(), Light::red);  // the peak alone
   EXPECT_EQ(chest.light(), Light::amber);
