@@ -44,6 +44,16 @@ bool anyNatural(const Comparison& c);
 /// What "thickness x 0.5" means; empty where no axis is one of factors.
 std::string multiplesOf(const Study& study);
 
+// page_cards.cpp: plain sentences
+/// What follows for the garment, as far as the study goes.
+std::string changesOf(const Study& study, const Comparison& c);
+/// Where the answer costs how much, the most first; empty where there is one setting.
+std::string whereOf(const Study& study, const Comparison& c);
+/// Whether finer cells gave less or more, where all pairs agree; completes a paragraph.
+std::string trendOf(const Comparison& c);
+/// What would make the answer surer: of the torque whose error bar is widest, and of the fabric where it is stretched
+/// further than it is meant for.
+std::string measuresOf(const Study& study, const Comparison& c);
 // page_population.cpp
 std::string populationHeadline(const Study& study, const Comparison& c, const std::vector<SidePicture>& pictures);
 std::string populationOf(const Study& study, const Comparison& c, const std::vector<SidePicture>& pictures);

@@ -162,10 +162,10 @@ std::string lawsOf(const Study& s, const Comparison& c) {
         levels.push_back(memberName(s, c, i));
   std::vector<std::string> columns{"joint"};
   for (const std::string& l : levels)
-    for (const char* what : {"peak", "mean square", "same course"}) columns.push_back(l + ": " + what);
+    for (const char* what : {"peak", "RMS", "same course"}) columns.push_back(l + ": " + what);
   bool any_law = false;
   for (const Law& l : laws) any_law = any_law || (l.axis == main && l.isPower());
-  if (any_law) columns.insert(columns.end(), {"exponent of the peak", "of the mean square"});
+  if (any_law) columns.insert(columns.end(), {"exponent of the peak", "of the RMS"});
   if (any_law && neighbours) columns.push_back("of the peak, from level to level");
   std::vector<std::vector<Html>> rows, others;
   for (const VariantGroup& g : c.groups) {
@@ -206,17 +206,17 @@ std::string lawsOf(const Study& s, const Comparison& c) {
   if (columns.size() > 1 && !rows.empty())
     out += htmlTable(
         "As a multiple of the baseline\u2019s, same motion and joint", columns, rows,
-        fmt::format(
-            "Peak: of the largest torques. Mean square: of the root mean squares over the time that counts. Same "
-            "course: the correlation of the two curves, 1 where they rise and fall alike.{}",
-            any_law ? " Exponent n: the torque goes with the " + main +
-                          " to the power n. With 1, half of it leaves half of the torque, with 3 an eighth, with "
-                          "0 all. " +
-                          (neighbours ? "How much it varies from level to level shows how far that is from a law."
-                                      : "It is of two points: that it holds between or beyond them is not shown.")
-                    : ""));
+        fmt::format("Peak: of the largest torques. RMS: of the root mean squares over the time that counts. Same "
+                    "course: the correlation of the two curves, 1 where they rise and fall alike.{}",
+                    any_law
+                        ? " Exponent n: the torque goes with the " + main +
+                              " to the power n. With 1, half of it leaves half of the torque, with 3 an eighth, with "
+                              "0 all. " +
+                              (neighbours ? "How much it varies from level to level shows how far that is from a law."
+                                          : "It is of two points: that it holds between or beyond them is not shown.")
+                        : ""));
   if (!others.empty()) {
-    std::vector<std::string> heads{"axis and joint", "exponent of the peak", "of the mean square"};
+    std::vector<std::string> heads{"axis and joint", "exponent of the peak", "of the RMS"};
     if (neighbours) heads.push_back("of the peak, from level to level");
     out += htmlTable("Exponents along the other axes", heads, others, "");
   }

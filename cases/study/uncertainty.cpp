@@ -10,7 +10,7 @@
 namespace gambeson::study {
 
 const char* Headline::name() const {
-  const char* const names[]{"peak torque", "mean square torque", "pressure, mean", "pressure, peak"};
+  const char* const names[]{"peak torque", "root mean square torque", "pressure, mean", "pressure, peak"};
   return names[static_cast<int>(quantity)];
 }
 

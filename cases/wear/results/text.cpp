@@ -286,10 +286,10 @@ std::vector<std::string> assumptionsOf(const Scenario& s, const Measured& m) {
     if (const std::string natural = naturalMeaning(c.analysis.task); !natural.empty()) say(natural);
   }
   if (const auto& strides = m.strides; strides && m.played == Measured::Played::strides)
-    say(
-        fmt::format("Peaks and mean squares of torques count from the foot strike at {} s on; the lead-in before it is "
-                    "only drawn.",
-                    formatNumber(strides->start_s)));
+    say(fmt::format(
+        "Peaks and root mean squares of torques count from the foot strike at {} s on; the lead-in before it is "
+        "only drawn.",
+        formatNumber(strides->start_s)));
   if (!c.contact.self) say("Cloth does not touch cloth in this case: folds and garments may cross each other.");
   say("Cloth rests on bodies with its samples, and on cloth with samples and sharp edges; what would pass through a "
       "mesh or through cloth within a step is found for its triangles and edges.");

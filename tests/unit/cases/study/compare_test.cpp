@@ -46,6 +46,14 @@ TEST(Study, ComparesWhatItsRunsLeft) {
   EXPECT_NEAR(*e.e.thicknessExponent(), 3 * part(0.31) + part(0.22) + part(0.28) + part(0.15), 1e-9);
   EXPECT_TRUE(e.measured);
   for (const ElasticityRow& row : c.elasticities) EXPECT_EQ(row.joint.find("elbow"), std::string::npos);
+  // What to change goes by the largest, where the torque is largest.
+  const std::string page = studyPage(s, c, {}, {});
+  const std::size_t at_change = page.find("What to change");
+  ASSERT_NE(at_change, std::string::npos);
+  EXPECT_NE(page.find("<span class=\"q\">10 %</span> less rigidity of bending takes off <span class=\"q\">3.1 %</span>",
+                      at_change),
+            std::string::npos)
+      << page.substr(at_change, 900);
 
   ASSERT_EQ(c.meshes.size(), 6u);
   for (const MeshRow& m : c.meshes) {
