@@ -111,8 +111,8 @@ struct RunNumbers {
   double pressing_N() const;  ///< of all zones
 };
 
-/// Reads summary.json, torques.csv and pressures.csv of a run's folder; a run of a structure has no joints. What cannot be read makes
-/// the run not good, with its reason.
+/// Reads summary.json, torques.csv and pressures.csv of a run's folder; a run of a structure has no joints. What cannot
+/// be read makes the run not good, with its reason.
 RunNumbers readRun(const std::filesystem::path& folder);
 
 }  // namespace gambeson::study

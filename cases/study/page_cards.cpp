@@ -16,7 +16,10 @@ std::string countsOf(const Option& taken, const Comparison& c) {
   const Option::Cost* worst = worstCost(taken);
   const ElasticityRow* row = nullptr;
   for (const ElasticityRow& e : c.elasticities) {
-    if (e.quantity != "peak" || !worst || e.setting.find(worst->motion) == std::string::npos) continue;
+    // Settings are names with commas between; "male_p5" is none of "male_p50".
+    const bool there = worst && (worst->motion.empty() ||
+                                 (", " + e.setting + ", ").find(", " + worst->motion + ", ") != std::string::npos);
+    if (e.quantity != "peak" || !there) continue;
     if (!row || (e.joint == worst->joint && row->joint != worst->joint)) row = &e;
   }
   if (!row) return "";

@@ -51,15 +51,16 @@ struct Course {
 };
 
 std::optional<CourseDifference> differenceOf(const Course& a, const Course& b, double from_s, double to_s) {
-  double sum = 0;
+  double peak_a = 0, peak_b = 0, sum = 0;
   int count = 0;
   for (std::size_t i = 0; i < a.time_s.size() && a.time_s[i] <= to_s; ++i) {
     if (a.time_s[i] < from_s) continue;
     if (i >= b.time_s.size() || std::abs(b.time_s[i] - a.time_s[i]) > kSameTime_s) return {};
+    peak_a = std::max(peak_a, std::abs(a.value[i]));
+    peak_b = std::max(peak_b, std::abs(b.value[i]));
     sum += (a.value[i] - b.value[i]) * (a.value[i] - b.value[i]);
     ++count;
   }
-  const double peak_a = a.largest(from_s, to_s), peak_b = b.largest(from_s, to_s);
   if (!(peak_a > 0)) return {};
   return CourseDifference{std::abs(peak_a - peak_b) / peak_a, std::sqrt(sum / count) / peak_a};
 }

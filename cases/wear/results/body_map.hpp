@@ -54,8 +54,8 @@ class BodyMap {
 /// What each place of the body bears over the motion.
 struct BodyLoads {
   std::vector<double> peak_Pa, peak_time_s, mean_Pa;  ///< of each vertex; means from `from_s` on
-  /// Of each zone [frame][index in zoneNames], in the frames from `from_s` on: the largest of its vertices then, and the
-  /// largest mean over time of one vertex, had the motion ended there.
+  /// Of each zone [frame][index in zoneNames], in the frames from `from_s` on [Pa]: the largest of its vertices then,
+  /// and the largest mean over time of one vertex, had the motion ended there.
   std::vector<std::vector<double>> largest_Pa, mean_so_far_Pa;
   std::vector<double> time_s;  ///< of these frames
 };
